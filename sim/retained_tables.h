@@ -45,7 +45,7 @@ public:
   // RUNG_NONE: the other program does not ask for this service.
   uint32_t service(uint32_t number) const;
   // A request that has been taken and is not yet answered: its service, and where its operand block lies. The service
-  // is RUNG_NONE afterwards where the other program does not wait for the answer.
+  // is RUNG_NONE, and unknown, afterwards where the other program does not wait for the answer.
   void renumber(core::ServiceRequest& request) const;
 };
 

@@ -58,8 +58,8 @@ void settleSymbols(ir::Module& module) {
   for (ir::Symbol& symbol : module.symbols) symbol.comment = withoutAllowances(symbol.comment);
 }
 
-ir::ServiceId service(ir::Module& module, std::string_view signature) {
-  return once<ir::ServiceId>(module.services, signature);
+ir::ServiceId service(ir::Module& module, const nc::ServiceRow& row) {
+  return once<ir::ServiceId>(module.services, row.text);
 }
 
 ir::FaultId fault(ir::Module& module, std::string_view text) { return once<ir::FaultId>(module.faults, text); }

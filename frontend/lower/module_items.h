@@ -7,6 +7,7 @@
 
 #include "ir/core/builder.h"
 #include "ir/support/source.h"
+#include "rtlib/nc/service.h"
 
 namespace rung::frontend {
 
@@ -21,8 +22,8 @@ void nameCells(ir::Module& module, std::string name, ir::Place place, ir::Type t
 // Once all are there: by name, with comments as readers are to see them.
 void settleSymbols(ir::Module& module);
 
-// Each is in the module once, however often it is asked for. "NAME arguments -> results", see docs/scenario-format.md.
-ir::ServiceId service(ir::Module& module, std::string_view signature);
+// Each is in the module once, however often it is asked for.
+ir::ServiceId service(ir::Module& module, const nc::ServiceRow& row);
 ir::FaultId fault(ir::Module& module, std::string_view text);
 
 // Keys of what is otherwise alike: the second has "~1" after it (rung_slot in rung/program.h).

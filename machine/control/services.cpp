@@ -106,10 +106,10 @@ json Services::served(const Peer& peer, const json& request) {
   const auto found = waiting_.find(ticket);
   if (found == waiting_.end())
     throw Refused("no request with ticket " + std::to_string(ticket) + " waits: it is answered, or was too late");
-  const host::Request& asked = found->second.request;
+  const Waiting& asked = found->second;
   host::NcAnswer answer{.outcome = outcomeOf(request)};
-  if (answer.outcome == Outcome::Done && asked.reads()) answer.value = realOf(request.value("value", json()), "value");
-  plc_.answer(host::replyOf(asked, answer));
+  if (answer.outcome == Outcome::Done && asked.reads) answer.value = realOf(request.value("value", json()), "value");
+  plc_.answer(plc_.translation().replyOf(asked.request, answer));
   waiting_.erase(found);
   return json::object();
 }
@@ -126,15 +126,15 @@ void Services::lose(const std::string& why) {
   host::Live& live = plc_.live();
   live.served.store(false, std::memory_order_release);
   live.known.store(false, std::memory_order_release);
-  for (const auto& [ticket, waiting] : waiting_) refuse(waiting.request);
+  for (const auto& [ticket, waiting] : waiting_) refuse(ticket);
   waiting_.clear();
 }
 
 void Services::work(Sink& sink) {
   if (provider_ != 0) checkService(sink);
   refuseLate();
-  host::Request request;
-  for (int i = 0; i < turn::kMostServices && plc_.nextRequest(request); ++i) pass(sink, std::exchange(request, {}));
+  rung_request request{};
+  for (int i = 0; i < turn::kMostServices && plc_.nextRequest(request); ++i) pass(sink, request);
 }
 
 // A provider that serves no more learns of it before anything moves again.
@@ -150,33 +150,31 @@ void Services::checkService(Sink& sink) {
   }
 }
 
-void Services::pass(Sink& sink, host::Request request) {
-  rung_reply refusal{};
-  const std::optional<host::Operation> operation = host::operationOf(request, refusal);
+void Services::pass(Sink& sink, const rung_request& request) {
+  rung_reply refusal{.size = sizeof refusal, .ticket = request.ticket, .error = 1};
+  const std::optional<host::Operation> operation = plc_.translation().operationOf(request, refusal);
   if (!operation) {
     plc_.answer(refusal);
     return;
   }
   if (!plc_.live().served.load(std::memory_order_relaxed))
-    return refuse(request); // it has gone since the program asked
-  const uint32_t ticket = request.given.ticket;
+    return refuse(request.ticket); // it has gone since the program asked
   const int64_t end = plc_.clock().nowNs() + std::chrono::nanoseconds(kPatience).count();
-  waiting_[ticket] = {std::move(request), operation->untilOver ? std::numeric_limits<int64_t>::max() : end};
-  sink.send(provider_, eventOf(ticket, *operation));
+  waiting_[request.ticket] = {request, !operation->write,
+                              operation->untilOver ? std::numeric_limits<int64_t>::max() : end};
+  sink.send(provider_, eventOf(request.ticket, *operation));
 }
 
 void Services::refuseLate() {
   const int64_t now = plc_.clock().nowNs();
   std::erase_if(waiting_, [&](const auto& entry) {
     const bool late = entry.second.endNs <= now;
-    if (late) refuse(entry.second.request);
+    if (late) refuse(entry.first);
     return late;
   });
 }
 
 // As the control does without a provider (rtlib/nc/control/control.h).
-void Services::refuse(const host::Request& request) {
-  plc_.answer({.size = sizeof(rung_reply), .ticket = request.given.ticket, .error = 1});
-}
+void Services::refuse(uint32_t ticket) { plc_.answer({.size = sizeof(rung_reply), .ticket = ticket, .error = 1}); }
 
 } // namespace rung::control

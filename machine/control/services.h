@@ -39,14 +39,15 @@ public:
 
 private:
   struct Waiting {
-    host::Request request;
+    rung_request request;
+    bool reads;
     int64_t endNs;
   };
   void checkProvider(const Peer& peer) const;
   void checkService(Sink& sink);
-  void pass(Sink& sink, host::Request request);
+  void pass(Sink& sink, const rung_request& request);
   void refuseLate();
-  void refuse(const host::Request& request);
+  void refuse(uint32_t ticket);
 
   host::PlcHost& plc_;
   void lose(const std::string& why);

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "machine/host/mapping_file.h"
+#include "rtlib/nc/service.h"
 #include "rtlib/text/name_parts.h"
 #include "rtlib/text/number.h"
 #include "rung/types.hpp"
@@ -486,7 +487,7 @@ private:
 
 Binding bindMap(const File& map, rung_instance* instance, const rung_program& program,
                 std::vector<std::string>& errors) {
-  if (!map.devices.empty() && std::string_view(program.dialect) != "technol")
+  if (!map.devices.empty() && !nc::hasDevices(program.dialect))
     errors.push_back(
         map.message(map.devices.front().at, "devices: found a device of this machine, expected none for a program of " +
                                                 std::string(program.dialect) +

@@ -43,11 +43,11 @@ int32_t readProfile(const rung_instance* plc, Command& command) noexcept {
 } // namespace
 
 PlcHost::PlcHost(const Image& image, File map, const Options& options)
-    : map_(std::move(map)), options_{.size = sizeof options_,
-                                     .user = this,
-                                     .log = &PlcHost::log,
-                                     .request = &PlcHost::request,
-                                     .catch_up = options.catchUp},
+    : map_(std::move(map)), translation_(translationOf(image.program().dialect)), options_{.size = sizeof options_,
+                                                                                           .user = this,
+                                                                                           .log = &PlcHost::log,
+                                                                                           .request = &PlcHost::request,
+                                                                                           .catch_up = options.catchUp},
       plc_(options.newInstance ? options.newInstance(image, options_) : Instance(image, &options_)),
       kept_(!options.retain.empty()), reset_(options.reset), pins_(map_.pins), clock_(*options.clock) {
   if (kept_) plc_.keep(options.retain);
@@ -61,7 +61,9 @@ void PlcHost::log(void* host, int32_t level, const char* text) try {
 }
 
 int32_t PlcHost::request(void* host, rung_instance*, const rung_request* request, rung_reply* reply) {
-  return atOnce(*request, static_cast<PlcHost*>(host)->live_, *reply);
+  const PlcHost& self = *static_cast<PlcHost*>(host);
+  if (!self.live_.served.load(std::memory_order_acquire)) return RUNG_REFUSE;
+  return self.translation_.atOnce(*request, self.live_, *reply);
 }
 
 std::unique_ptr<PlcHost> PlcHost::make(const Image& image, File map, const Options& options,
@@ -385,11 +387,9 @@ bool PlcHost::nextMessage(rung_message_info& message) const noexcept {
   return rung_instance_next_message(plc_.handle(), &message) == RUNG_OK;
 }
 
-bool PlcHost::nextRequest(Request& request) const {
-  request.given.size = sizeof request.given;
-  if (rung_instance_next_request(plc_.handle(), &request.given) != RUNG_OK) return false;
-  request.service = request.given.service;
-  return true;
+bool PlcHost::nextRequest(rung_request& request) const noexcept {
+  request.size = sizeof request;
+  return rung_instance_next_request(plc_.handle(), &request) == RUNG_OK;
 }
 
 CommandSlot::Outcome PlcHost::execute(Command& command) noexcept {

@@ -90,7 +90,8 @@ public:
   // What the program asks of a CNC that somebody serves (`live().served`), for one thread at a time. False: no
   // request waits.
   Live& live() noexcept { return live_; }
-  bool nextRequest(Request& request) const;
+  bool nextRequest(rung_request& request) const noexcept;
+  const Translation& translation() const noexcept { return translation_; } // of its requests
   void answer(const rung_reply& reply) const noexcept { rung_instance_answer(plc_.handle(), &reply); }
   rung_instance* instance() const noexcept { return plc_.handle(); }
   const File& map() const noexcept { return map_; }
@@ -165,6 +166,7 @@ private:
   File map_;
   std::vector<std::string> logged_;
   Live live_;
+  const Translation& translation_;
   rung_instance_options options_;
   Instance plc_;
   bool kept_; // there is a file for retained memory

@@ -80,40 +80,33 @@ struct NcAnswer {
   double value = 0; // that was read
 };
 
-// Converts requests of the dialects' programs to operations, and outcomes to the dialects' results and errors.
+// Converts requests of a dialect's programs to operations, and outcomes to the dialect's results and errors. This class
+// itself is for a dialect without such requests: it refuses all.
+class Translation {
+public:
+  virtual ~Translation() = default;
 
-// A request that waits for its answer. The program that made it may have been replaced by then.
-struct Request {
-  std::string service; // as in rung_request
-  rung_request given{};
-  bool reads() const; // whether it has a result
+  // Scan thread, in rung_instance_options::request: returns an enum rung_answer. If no client serves, or no operation
+  // corresponds to the request, the control refuses at once. Allocates nothing.
+  virtual int32_t atOnce(const rung_request& request, const Live& live, rung_reply& reply) const noexcept {
+    return (void)request, (void)live, (void)reply, RUNG_REFUSE;
+  }
+  // The operation of a request; nothing: `refusal` is the answer.
+  virtual std::optional<Operation> operationOf(const rung_request& request, rung_reply& refusal) const {
+    return (void)request, (void)refusal, std::nullopt;
+  }
+  virtual rung_reply replyOf(const rung_request& request, const NcAnswer& answer) const {
+    return {.size = sizeof(rung_reply), .ticket = request.ticket, .error = answer.outcome == Outcome::Done ? 0u : 1u};
+  }
 };
 
-// Scan thread, in rung_instance_options::request: returns an enum rung_answer. If no client serves, or no operation
-// corresponds to the request, the control refuses at once. Allocates nothing.
-int32_t atOnce(const rung_request& request, const Live& live, rung_reply& reply) noexcept;
-
-// The operation of a request; nothing: `refusal` is the answer.
-std::optional<Operation> operationOf(const Request& request, rung_reply& refusal);
-rung_reply replyOf(const Request& request, const NcAnswer& answer);
-
-// The parts of the dialects. `is`: whether a request belongs to the dialect and may wait for an answer.
+// By rung_program::dialect.
+const Translation& translationOf(std::string_view dialect);
 
 // The window functions of GSK25i (man. §9.3) and its PLC axis control (§9.2). High-speed window functions are answered
 // at once or not at all.
-namespace gsk {
-bool is(std::string_view service) noexcept;
-int32_t atOnce(const rung_request& request, const Live& live, rung_reply& reply) noexcept;
-std::optional<Operation> operationOf(const Request& request, rung_reply& refusal);
-rung_reply replyOf(const Request& request, const NcAnswer& answer);
-} // namespace gsk
-
+const Translation& gskTranslation();
 // MACR, MACW, MOVCMND and SCP of NCT (man. §6.15-§6.17). SCP is answered at once or not at all.
-namespace nct {
-bool is(std::string_view service) noexcept;
-int32_t atOnce(const rung_request& request, const Live& live, rung_reply& reply) noexcept;
-std::optional<Operation> operationOf(const Request& request);
-rung_reply replyOf(const Request& request, const NcAnswer& answer);
-} // namespace nct
+const Translation& nctTranslation();
 
 } // namespace rung::host

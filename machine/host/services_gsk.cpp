@@ -1,15 +1,15 @@
-// `windr function length number attribute -> end data`, `windw … data -> end` (man. l.8482-8945); AXLCTL, of the
-// control itself, for the blocks of PLC axis control (l.7713-7803).
+// Window functions (man. l.8482-8945), and the control's own requests for the blocks of PLC axis control (l.7713-7803).
 #include <cmath>
-#include <string_view>
 
 #include "machine/host/services.h"
 #include "rtlib/nc/gsk/axis_commands.h"
+#include "rtlib/nc/gsk/services.h"
 #include "rtlib/nc/gsk/window_functions.h"
 
-namespace rung::host::gsk {
+namespace rung::host {
 namespace {
 
+using nc::gsk::ServiceKind;
 using nc::gsk::WindowAccess;
 using nc::gsk::WindowEnd;
 using nc::gsk::WindowField;
@@ -35,10 +35,12 @@ struct Window {
   const WindowFunction* function;
 };
 
-Window windowOf(std::string_view service, const int64_t* args) noexcept {
-  const bool write = service.starts_with("windw");
-  const auto at = [&](size_t i) { return static_cast<uint64_t>(args[i]); };
-  return {write, at(0), at(1), at(2), at(3), write ? args[4] : 0, nc::gsk::findWindowFunction(at(0))};
+ServiceKind kindOf(const rung_request& request) noexcept { return static_cast<ServiceKind>(request.kind); }
+
+Window windowOf(const rung_request& request) noexcept {
+  const bool write = kindOf(request) == ServiceKind::WriteWindow;
+  const auto at = [&](size_t i) { return static_cast<uint64_t>(request.args[i]); };
+  return {write, at(0), at(1), at(2), at(3), write ? request.args[4] : 0, nc::gsk::findWindowFunction(at(0))};
 }
 
 bool fits(double value, uint64_t length) noexcept {
@@ -112,8 +114,6 @@ WindowEnd endOf(Outcome outcome, bool write) noexcept {
   return nc::gsk::kWindowNotProvided;
 }
 
-bool isAxis(std::string_view service) noexcept { return service == nc::gsk::kAxisRequest; }
-
 // Nothing: no CNC offers the motion to its program. A turn of the command in r/min is 360 degrees (l.8407).
 std::optional<Operation> moveOf(const int64_t* args) noexcept {
   constexpr double kUnits = 10000; // of data 2 in a mm or a degree (P54)
@@ -149,15 +149,8 @@ std::optional<Operation> moveOf(const int64_t* args) noexcept {
   return needsSpeed && move.speed == 0 ? std::nullopt : std::optional(move);
 }
 
-} // namespace
-
-bool is(std::string_view service) noexcept {
-  return service.starts_with("windr ") || service.starts_with("windw ") || isAxis(service);
-}
-
-int32_t atOnce(const rung_request& request, const Live& live, rung_reply& reply) noexcept {
-  if (isAxis(request.service)) return RUNG_QUEUE;
-  const Window window = windowOf(request.service, request.args);
+int32_t windowAtOnce(const rung_request& request, const Live& live, rung_reply& reply) noexcept {
+  const Window window = windowOf(request);
   const WindowEnd mistake = mistakeOf(window);
   if (mistake == nc::gsk::kWindowDone && window.function->speed == nc::gsk::WindowSpeed::Low) return RUNG_QUEUE;
   if (mistake == nc::gsk::kWindowDone && !live.known.load(std::memory_order_acquire)) return RUNG_REFUSE;
@@ -166,14 +159,12 @@ int32_t atOnce(const rung_request& request, const Live& live, rung_reply& reply)
   return RUNG_ANSWER;
 }
 
-std::optional<Operation> operationOf(const Request& request, rung_reply& refusal) {
-  if (isAxis(request.service)) return moveOf(request.given.args);
-  const Window window = windowOf(request.service, request.given.args);
+std::optional<Operation> windowOperation(const rung_request& request, rung_reply& refusal) {
+  const Window window = windowOf(request);
   const WindowEnd mistake = mistakeOf(window);
   const std::optional<Quantity> quantity = mistake == nc::gsk::kWindowDone ? quantityOf(window) : std::nullopt;
   if (!quantity) {
-    refusal =
-        ended(window, request.given.ticket, mistake == nc::gsk::kWindowDone ? nc::gsk::kWindowNotProvided : mistake);
+    refusal = ended(window, request.ticket, mistake == nc::gsk::kWindowDone ? nc::gsk::kWindowNotProvided : mistake);
     return std::nullopt;
   }
   const bool offset = window.code == kReadOffset || window.code == kWriteOffset;
@@ -184,13 +175,35 @@ std::optional<Operation> operationOf(const Request& request, rung_reply& refusal
                    .value = static_cast<double>(window.data) / window.function->scale};
 }
 
-rung_reply replyOf(const Request& request, const NcAnswer& answer) {
-  if (isAxis(request.service))
-    return {
-        .size = sizeof(rung_reply), .ticket = request.given.ticket, .error = answer.outcome == Outcome::Done ? 0u : 1u};
-  const Window window = windowOf(request.service, request.given.args);
-  if (answer.outcome == Outcome::Done && !window.write) return given(window, request.given.ticket, answer.value);
-  return ended(window, request.given.ticket, endOf(answer.outcome, window.write));
+class GskTranslation final : public Translation {
+public:
+  int32_t atOnce(const rung_request& request, const Live& live, rung_reply& reply) const noexcept override {
+    switch (kindOf(request)) {
+    case ServiceKind::Unknown: return RUNG_REFUSE;
+    case ServiceKind::ReadWindow:
+    case ServiceKind::WriteWindow: return windowAtOnce(request, live, reply);
+    case ServiceKind::MoveAxis: return RUNG_QUEUE;
+    }
+    return RUNG_REFUSE;
+  }
+
+  std::optional<Operation> operationOf(const rung_request& request, rung_reply& refusal) const override {
+    return kindOf(request) == ServiceKind::MoveAxis ? moveOf(request.args) : windowOperation(request, refusal);
+  }
+
+  rung_reply replyOf(const rung_request& request, const NcAnswer& answer) const override {
+    if (kindOf(request) == ServiceKind::MoveAxis) return Translation::replyOf(request, answer);
+    const Window window = windowOf(request);
+    if (answer.outcome == Outcome::Done && !window.write) return given(window, request.ticket, answer.value);
+    return ended(window, request.ticket, endOf(answer.outcome, window.write));
+  }
+};
+
+} // namespace
+
+const Translation& gskTranslation() {
+  static constexpr GskTranslation kGsk;
+  return kGsk;
 }
 
-} // namespace rung::host::gsk
+} // namespace rung::host

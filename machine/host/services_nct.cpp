@@ -1,5 +1,4 @@
-// MACR variable channel -> value, MACW variable channel value (man. l.8070-8125), MOVCMND axis code speed distance
-// (l.3082-3145), SCP symbol p1 p2 -> value (l.3323-3388): errors are FL_ER=1 in the program.
+// Macro variables, blocks of movement and quantities of the scope: errors are FL_ER=1 in the program.
 #include "rtlib/nc/nct/axis_codes.h"
 
 #include <array>
@@ -8,9 +7,12 @@
 
 #include "machine/host/services.h"
 #include "rtlib/nc/nct/scope_symbols.h"
+#include "rtlib/nc/nct/services.h"
 
-namespace rung::host::nct {
+namespace rung::host {
 namespace {
+
+using nc::nct::ServiceKind;
 
 // Without a way: no CNC offers the motion to its program.
 struct Motion {
@@ -35,7 +37,7 @@ constexpr std::array<Motion, 15> kMotions = {{{Way::To},
                                               {}}}; // by the codes of axis_codes.h
 
 std::optional<Operation> moveOf(const int64_t* args) noexcept {
-  const bool known = args[0] >= 0 && args[0] < rung::nc::nct::kAxes && args[1] >= 0 && args[1] < std::ssize(kMotions);
+  const bool known = args[0] >= 0 && args[0] < nc::nct::kAxes && args[1] >= 0 && args[1] < std::ssize(kMotions);
   const Motion motion = known ? kMotions[static_cast<size_t>(args[1])] : Motion{};
   if (!motion.way) return std::nullopt;
   return Operation{.quantity = Quantity::AxisMove,
@@ -47,25 +49,14 @@ std::optional<Operation> moveOf(const int64_t* args) noexcept {
 }
 
 bool isPosition(int64_t symbol) noexcept {
-  const auto symbols = rung::nc::nct::scopeSymbols();
+  const auto symbols = nc::nct::scopeSymbols();
   if (symbol < 0 || symbol >= std::ssize(symbols)) return false;
   const std::string_view name = symbols[static_cast<size_t>(symbol)].name;
   return name == "ActPosAx" || name == "ComPosAx";
 }
 
-} // namespace
-
-bool is(std::string_view service) noexcept {
-  return service.starts_with("MACR ") || service.starts_with("MACW ") || service.starts_with("MOVCMND ") ||
-         service.starts_with("SCP ");
-}
-
-// SCP is answered within the scan: positions of axes, which count from 1 there. A CNC says nothing of the rest.
-// MOVCMND is taken without an answer, so what no CNC can do is refused before.
-int32_t atOnce(const rung_request& request, const Live& live, rung_reply& reply) noexcept {
-  const std::string_view service = request.service;
-  if (service.starts_with("MOVCMND ") && !moveOf(request.args)) return RUNG_REFUSE;
-  if (!service.starts_with("SCP ")) return RUNG_QUEUE;
+// Positions of axes, which count from 1 there. A CNC says nothing of the rest.
+int32_t scopeAtOnce(const rung_request& request, const Live& live, rung_reply& reply) noexcept {
   const int64_t axis = request.args[1] - 1;
   if (!live.known.load(std::memory_order_acquire) || !isPosition(request.args[0]) || axis < 0 ||
       axis >= int64_t{live.axes.load(std::memory_order_relaxed)})
@@ -75,26 +66,57 @@ int32_t atOnce(const rung_request& request, const Live& live, rung_reply& reply)
   return RUNG_ANSWER;
 }
 
-std::optional<Operation> operationOf(const Request& request) {
-  const int64_t* args = request.given.args;
-  if (request.service.starts_with("MOVCMND ")) return moveOf(args);
-  const bool write = request.service.starts_with("MACW ");
-  return Operation{.quantity = Quantity::MacroVariable,
-                   .write = write,
-                   .channel = static_cast<uint32_t>(args[1]),
-                   .number = static_cast<uint32_t>(args[0]),
-                   .value = write ? std::bit_cast<double>(args[2]) : 0};
+Operation macroOf(const int64_t* args, bool write) {
+  return {.quantity = Quantity::MacroVariable,
+          .write = write,
+          .channel = static_cast<uint32_t>(args[1]),
+          .number = static_cast<uint32_t>(args[0]),
+          .value = write ? std::bit_cast<double>(args[2]) : 0};
 }
 
-rung_reply replyOf(const Request& request, const NcAnswer& answer) {
-  rung_reply reply{.size = sizeof reply, .ticket = request.given.ticket};
-  if (answer.outcome != Outcome::Done) {
-    reply.error = 1;
-  } else if (request.service.starts_with("MACR ")) {
-    reply.result_count = 1;
-    reply.results[0] = std::bit_cast<int64_t>(answer.value);
+class NctTranslation final : public Translation {
+public:
+  // A move is taken without an answer, so what no CNC can do is refused before.
+  int32_t atOnce(const rung_request& request, const Live& live, rung_reply& reply) const noexcept override {
+    switch (kindOf(request)) {
+    case ServiceKind::Unknown:
+    case ServiceKind::ReadArray:
+    case ServiceKind::WriteArray: return RUNG_REFUSE;
+    case ServiceKind::ReadMacro:
+    case ServiceKind::WriteMacro: return RUNG_QUEUE;
+    case ServiceKind::ReadScope: return scopeAtOnce(request, live, reply);
+    case ServiceKind::MoveAxis: return moveOf(request.args) ? RUNG_QUEUE : RUNG_REFUSE;
+    }
+    return RUNG_REFUSE;
   }
-  return reply;
+
+  std::optional<Operation> operationOf(const rung_request& request, rung_reply&) const override {
+    switch (kindOf(request)) {
+    case ServiceKind::ReadMacro: return macroOf(request.args, false);
+    case ServiceKind::WriteMacro: return macroOf(request.args, true);
+    case ServiceKind::MoveAxis: return moveOf(request.args);
+    default: return std::nullopt; // is refused, or answered at once
+    }
+  }
+
+  rung_reply replyOf(const rung_request& request, const NcAnswer& answer) const override {
+    rung_reply reply = Translation::replyOf(request, answer);
+    if (reply.error == 0 && kindOf(request) == ServiceKind::ReadMacro) {
+      reply.result_count = 1;
+      reply.results[0] = std::bit_cast<int64_t>(answer.value);
+    }
+    return reply;
+  }
+
+private:
+  static ServiceKind kindOf(const rung_request& request) noexcept { return static_cast<ServiceKind>(request.kind); }
+};
+
+} // namespace
+
+const Translation& nctTranslation() {
+  static constexpr NctTranslation kNct;
+  return kNct;
 }
 
-} // namespace rung::host::nct
+} // namespace rung::host

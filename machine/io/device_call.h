@@ -5,12 +5,10 @@
 #include <array>
 #include <bit>
 #include <cstdint>
-#include <iterator>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string_view>
-#include <vector>
 
 #include "rtlib/core/queues.h"
 #include "rtlib/nc/control/technol/values.h"
@@ -47,7 +45,7 @@ public:
     end_ += count;
     return {bytes_->data() + entry.first, count};
   }
-  // Answers kDataService.
+  // Answers FetchBytes.
   void fetch(const core::ServiceRequest& request, core::ServiceReply& reply) const {
     reply.resultCount = RUNG_MAX_SERVICE_ARGS;
     const auto first = static_cast<uint64_t>(request.args[1]) * nc::technol::kDataBytes;
@@ -74,12 +72,10 @@ private:
   std::unique_ptr<std::array<uint8_t, kRoom>> bytes_;
 };
 
-// What a service asks for: an enumeration's value by the names in its order, the first of which is that of None.
-template <class Order, size_t Count>
-Order orderOf(const std::string_view (&names)[Count], std::string_view service) {
-  const auto* found = std::ranges::find(names, service);
-  return static_cast<Order>(found == std::end(names) ? 0 : found - names);
-}
+using nc::technol::Device;
+using nc::technol::ServiceKind;
+
+inline ServiceKind kindOf(const core::ServiceRequest& request) { return static_cast<ServiceKind>(request.name.kind); }
 
 class DeviceCall {
 public:
@@ -99,7 +95,7 @@ public:
   // Within the instruction.
   core::Memory memory() const { return instance_->memory(); }
   const core::ServiceRequest& request() const { return request_; }
-  uint32_t argCount() const { return request_.argCount; }
+  ServiceKind kind() const { return kindOf(request_); }
   int64_t arg(uint32_t number) const { return request_.args[number]; }
   int64_t argOr(uint32_t number, int64_t otherwise) const {
     return arg(number) == nc::technol::kNotGiven ? otherwise : arg(number);
@@ -156,20 +152,6 @@ private:
   core::ServiceReply& reply_;
   AnswerRoom& room_;
 };
-
-// Which device a service of a program is for, and what of it.
-
-enum class DeviceKind : uint8_t { None, Data, Tables, ReadArea, WriteArea, Axes, Com, Can, Ethercat };
-
-struct DeviceOrder {
-  DeviceKind device = DeviceKind::None;
-  uint8_t order = 0; // TableOrder, AxisOrder, ComOrder, CanRequest or EthercatOrder
-};
-
-// By the signature of a service, as rung_program::services has it.
-DeviceOrder deviceOrder(std::string_view signature);
-// By the program's numbers of its services.
-std::vector<DeviceOrder> deviceOrders(const rung_program& program);
 
 // Parts of configuration keys and their values.
 

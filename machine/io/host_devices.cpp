@@ -10,6 +10,7 @@
 #include "machine/io/com/tty_line.h"
 #include "machine/io/device_call.h"
 #include "machine/io/device_report.h"
+#include "rtlib/nc/service.h"
 #include "rtlib/nc/technol/exchange.h"
 #include "rtlib/text/letters.h"
 #include "rtlib/text/number.h"
@@ -229,9 +230,11 @@ void HostDevices::Machine::openPorts() {
   }
 }
 
+bool HostDevices::isFor(const Image& image) { return nc::hasDevices(image.program().dialect); }
+
 Instance HostDevices::instance(const Image& image, const rung_instance_options& options) {
   const rung_program& program = image.program();
-  if (std::string_view(program.dialect) != "technol")
+  if (!isFor(image))
     throw std::runtime_error("devices are only for programs of TECHNOL; this one is of " +
                              std::string(program.dialect));
   if (std::string wrong = machine_->devices.tables.load(); !wrong.empty())
@@ -292,11 +295,9 @@ std::vector<std::string> HostDevices::report() { return machine_->report.next();
 using namespace io;
 
 struct DevicesEnvironment::Places final : nc::Places {
-  explicit Places(const rung_program& of)
-      : program(of), services(deviceOrders(of)), can(of), states(of), outputs(of), axes(of) {}
+  explicit Places(const rung_program& of) : program(of), can(of), states(of), outputs(of), axes(of) {}
 
   const rung_program& program;
-  std::vector<DeviceOrder> services; // by the program's numbers
   CanPlaces can;
   StatePlaces states;
   OutputPlaces outputs;
@@ -385,19 +386,16 @@ bool DevicesEnvironment::respond(runtime::Instance& instance, const core::Servic
 
 bool DevicesEnvironment::answer(runtime::Instance& instance, const core::ServiceRequest& request,
                                 core::ServiceReply& reply) {
-  if (request.service >= places().services.size()) return false;
-  const DeviceOrder order = places().services[request.service];
   DeviceCall call(instance, request, reply, bytes_);
-  switch (order.device) {
-  case DeviceKind::None: break;
-  case DeviceKind::Data: bytes_.fetch(request, reply); return true;
-  case DeviceKind::Tables: return askTable(static_cast<TableOrder>(order.order), call);
-  case DeviceKind::ReadArea: readShared(devices_.areas, call); return noteArea(call);
-  case DeviceKind::WriteArea: writeShared(devices_.areas, call); return noteArea(call);
-  case DeviceKind::Axes: return devices_.axes.answer(order, call, places().axes);
-  case DeviceKind::Com: answerCom(portOf(call), static_cast<ComOrder>(order.order), call); return true;
-  case DeviceKind::Can: devices_.can.answer(static_cast<CanRequest>(order.order), call); return true;
-  case DeviceKind::Ethercat: ethercat_.begin(static_cast<EthercatOrder>(order.order), call); return true;
+  switch (nc::technol::deviceOf(call.kind())) {
+  case Device::None: break;
+  case Device::Bytes: bytes_.fetch(request, reply); return true;
+  case Device::Tables: return askTable(call);
+  case Device::Areas: answerArea(devices_.areas, call); return noteArea(call);
+  case Device::Axes: return devices_.axes.answer(call, places().axes);
+  case Device::Com: answerCom(portOf(call), call); return true;
+  case Device::Can: devices_.can.answer(call); return true;
+  case Device::Ethercat: ethercat_.begin(call); return true;
   }
   return false;
 }
@@ -407,8 +405,8 @@ com::Port* DevicesEnvironment::portOf(const DeviceCall& call) {
   return number < devices_.ports.size() ? &devices_.ports[number] : nullptr;
 }
 
-bool DevicesEnvironment::askTable(TableOrder order, DeviceCall& call) {
-  if (devices_.tables.isEmpty() || !devices_.tables.ask(order, call)) return false;
+bool DevicesEnvironment::askTable(DeviceCall& call) {
+  if (devices_.tables.isEmpty() || !devices_.tables.ask(call)) return false;
   call.wait();
   return true;
 }

@@ -35,6 +35,9 @@ public:
   HostDevices(const HostDevices&) = delete;
   HostDevices& operator=(const HostDevices&) = delete;
 
+  // The program's dialect asks devices.
+  static bool isFor(const Image& image);
+
   // ---- before `instance`; "" or what is wrong
 
   // "2=can0": the CAN channel 1 or 2 is this interface. It is active then.
@@ -125,7 +128,7 @@ private:
   struct Places;
   bool answer(runtime::Instance& instance, const core::ServiceRequest& request, core::ServiceReply& reply);
   com::Port* portOf(const DeviceCall& call); // null: there is none of this number
-  bool askTable(TableOrder order, DeviceCall& call);
+  bool askTable(DeviceCall& call);
   bool noteArea(const DeviceCall& call); // that has been answered
   void beforeInput(runtime::Instance& instance);
   void tickMaster(const core::Memory& memory);

@@ -174,11 +174,11 @@ Image imageOf(const Request& request) {
   return image;
 }
 
-// A TECHNOL program has the devices of its map around it, and pins for its axes and analogue outputs; none: the control
-// alone.
+// A program that asks devices has those of its map around it, and pins for its axes and analogue outputs; none: the
+// control alone.
 host::PlcHost::NewInstance withDevices(PlcInstance& c, const Image& image, host::File& map,
                                        std::vector<std::string>& errors) {
-  if (std::string_view(image.program().dialect) != "technol") return {};
+  if (!io::HostDevices::isFor(image)) return {};
   c.devices = std::make_unique<io::HostDevices>();
   c.devices->set(map, errors);
   c.devices->addAxisPins(map, errors);

@@ -189,8 +189,6 @@ bool namesDevices(const Options& options) {
   return !options.can.empty() || !options.com.empty() || !options.sharedFile.empty() || !options.config.empty();
 }
 
-bool isOfTechnol(const Image& image) { return std::string_view(image.program().dialect) == "technol"; }
-
 // What the program has around it besides its pins; none: the control alone.
 host::PlcHost::NewInstance surroundingsOf(const Options& options, const Image& image, const host::File& map,
                                           std::vector<std::string>& errors,
@@ -199,7 +197,7 @@ host::PlcHost::NewInstance surroundingsOf(const Options& options, const Image& i
     simulation = rung_run::loadSimulation(image.program().dialect, options.config);
     return [&simulation](const Image& of, const rung_instance_options& with) { return simulation->instance(of, with); };
   }
-  if (!isOfTechnol(image)) return {};
+  if (!io::HostDevices::isFor(image)) return {};
   host::refuseAxes(map, "rung-run: axes are only moved in LinuxCNC", errors);
   devices.set(map, errors);
   setDevices(devices, options); // they go before the map
@@ -226,7 +224,7 @@ int run(const Options& options) try {
   ignoreSignals();
   control::Signals signals(kEndSignals);
   const Image image = imageOf(options);
-  if (!options.simulate && namesDevices(options) && !isOfTechnol(image))
+  if (!options.simulate && namesDevices(options) && !io::HostDevices::isFor(image))
     throw rung_run::WrongOption(
         "--can, --com, --sa-file, and --config without --simulate are only for programs of TECHNOL; this one is of " +
         std::string(image.program().dialect));

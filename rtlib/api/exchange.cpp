@@ -8,9 +8,12 @@
 namespace rung::api {
 
 rung_request shown(const core::ServiceRequest& request, const nc::Control& control) noexcept {
-  rung_request out{
-      .size = sizeof out, .ticket = request.ticket, .service = request.name, .arg_count = request.argCount};
-  if (request.service == nc::Control::kOwnService) out.service = control.ownService();
+  const core::ServiceName& name = request.service == nc::Control::kOwnService ? control.ownService() : request.name;
+  rung_request out{.size = sizeof out,
+                   .ticket = request.ticket,
+                   .service = name.text,
+                   .arg_count = request.argCount,
+                   .kind = name.kind};
   std::memcpy(out.args, request.args, sizeof out.args);
   return out;
 }

@@ -6,6 +6,7 @@
 
 #include "rtlib/api/error.h"
 #include "rtlib/load/program_info.h"
+#include "rtlib/nc/service.h"
 
 namespace rung::api {
 
@@ -80,14 +81,15 @@ void Generations::letGoLocked() {
 
 // Lists of names.
 
-const char* const* ServiceNames::of(const rung_program& program) {
+const core::ServiceName* ServiceNames::of(const rung_program& program) {
   const std::lock_guard lock(mutex_);
   std::vector<std::string> texts(program.services, program.services + program.service_count);
   const auto known = std::ranges::find(lists_, texts, &List::texts);
   if (known != lists_.end()) return known->names.data();
   List& list = lists_.emplace_back();
   list.texts = std::move(texts);
-  for (const std::string& text : list.texts) list.names.push_back(text.c_str());
+  for (const std::string& text : list.texts)
+    list.names.push_back({text.c_str(), nc::serviceKind(program.dialect, text)});
   return list.names.data();
 }
 

@@ -107,19 +107,19 @@ private:
   std::atomic<Generation*> now_{nullptr};
 };
 
-// The names of the services of an instance's programs. A waiting request refers to one of them, even if another program
+// The names and numbers of the services of an instance's programs. A waiting request refers to one of them, even if another program
 // runs by the time the request is taken, and the one that made it no longer exists.
 
 class ServiceNames {
 public:
-  // The names by service number, valid as long as this object. Programs that number their services equally share a
+  // By service number, valid as long as this object. Programs that number their services equally share a
   // list. Any thread, but not in real time.
-  const char* const* of(const rung_program& program);
+  const core::ServiceName* of(const rung_program& program);
 
 private:
   struct List {
     std::vector<std::string> texts;
-    std::vector<const char*> names;
+    std::vector<core::ServiceName> names;
   };
   std::mutex mutex_;
   std::list<List> lists_;

@@ -15,10 +15,16 @@ namespace rung::core {
 inline constexpr uint32_t kMessageCapacity = 256;
 using MessageQueue = FixedRing<rung_message, kMessageCapacity>;
 
+// What a service of a program is, whatever program runs when its request is read.
+struct ServiceName {
+  const char* text = "";
+  uint32_t kind = 0; // a number that all programs of the dialect have for it; 0: unknown
+};
+
 struct ServiceRequest {
   uint32_t ticket = 0;
-  uint32_t service = 0;  // in rung_program::services
-  const char* name = ""; // its name, for a host that reads the request after a reload; see setServices
+  uint32_t service = 0; // in rung_program::services
+  ServiceName name;     // see setServices
   uint32_t argCount = 0;
   int64_t args[RUNG_MAX_SERVICE_ARGS] = {};
   // The name follows from the service.
@@ -60,8 +66,8 @@ public:
   static constexpr uint32_t kRecords = 256;
 
   void setResponder(ServiceResponder responder) noexcept { responder_ = responder; }
-  // Names of services, by their numbers; they outlive the queue. Scan thread.
-  void setServices(const char* const* names, uint32_t count) noexcept {
+  // By the numbers of the program's services; they outlive the queue. Scan thread.
+  void setServices(const ServiceName* names, uint32_t count) noexcept {
     names_ = names;
     nameCount_ = count;
   }
@@ -106,7 +112,7 @@ private:
   std::atomic<uint32_t> stray_{0};
   std::atomic<uint32_t> lostBefore_{0}; // replies that were lost before the last restart
   ServiceResponder responder_;
-  const char* const* names_ = nullptr;
+  const ServiceName* names_ = nullptr;
   uint32_t nameCount_ = 0;
   FixedRing<ServiceRequest, kMaxPending> requests_;
   FixedRing<ServiceReply, kMaxPending> replies_;

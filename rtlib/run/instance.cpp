@@ -16,7 +16,7 @@ Instance::Instance(const Runnable& runnable, ScheduleHooks* hooks)
   ctx_->prof = loaded_.counters();
   setRunnerHooks();
   port_->services.setResponder({&respondHook, this});
-  port_->services.setServices(loaded_.services, program().service_count);
+  setServices();
   coldStart();
 }
 
@@ -196,7 +196,7 @@ ReplaceResult Instance::replace(Replacement& replacement, OwnContents own) {
   runner_.setProgram(program(), loaded_.block.get(), loaded_.parts.data(), loaded_.engine, loaded_.steps.data());
   ctx_->fault = translated(ctx_->fault, former, program());
   ctx_->prof = loaded_.counters();
-  port_->services.setServices(loaded_.services, program().service_count);
+  setServices();
   clearProfile();
   ++generation_;
   if (hooks_ != nullptr) hooks_->onReplace(*this);

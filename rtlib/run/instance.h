@@ -180,6 +180,9 @@ private:
   void useCopies() noexcept;
   void bringInLeftOut() noexcept;
   bool servicesAgree(const rung_program& next) const;
+  void setServices() noexcept {
+    port_->services.setServices(loaded_.services, loaded_.services != nullptr ? program().service_count : 0);
+  }
   void resetRun();
   static void stepHook(void* self, uint32_t work);
   static void faultHook(void* self);

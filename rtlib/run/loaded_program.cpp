@@ -40,8 +40,7 @@ void LoadedProgram::FreeBlock::operator()(uint8_t* bytes) const {
 }
 
 LoadedProgram::LoadedProgram(const Runnable& runnable, uint32_t leastBytes)
-    : program(&runnable.program), engine(runnable.engine),
-      services(runnable.services != nullptr ? runnable.services : program->services),
+    : program(&runnable.program), engine(runnable.engine), services(runnable.services),
       blockBytes(bytesFor(runnable, leastBytes)), block(blockFor(runnable, blockBytes)),
       profile(program->instrumented != 0 ? program->rung_count : 0), parts(program->task_count),
       steps(program->scan_count), retained(retainedBytes(*program)), overwritten(*program),

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "rtlib/core/memory.h"
+#include "rtlib/core/queues.h"
 #include "rtlib/core/runner.h"
 #include "rtlib/load/ref.h"
 #include "rung/program.h"
@@ -60,8 +61,8 @@ struct Runnable {
   void* engine = nullptr; // rung_ctx::engine of its chunks
   uint8_t* memory =
       nullptr; // the memory block, of core::Memory::kLeastBlock bytes at least; null: of the instance's own
-  // Names of the services of the program, which outlive the instance's queue of requests; null: the program's own.
-  const char* const* services = nullptr;
+  // Names and numbers of the program's services, which outlive the instance's queue of requests; null: it makes none.
+  const core::ServiceName* services = nullptr;
 };
 
 // A program with all the memory that one instance of it needs. Its memory block holds the initial contents.
@@ -79,8 +80,8 @@ struct LoadedProgram {
   };
   const rung_program* program;
   void* engine;
-  const char* const* services; // names
-  uint32_t blockBytes;         // the block has so many, of which the program needs its memory_size
+  const core::ServiceName* services;
+  uint32_t blockBytes; // the block has so many, of which the program needs its memory_size
   std::unique_ptr<uint8_t, FreeBlock> block;
   std::vector<rung_prof> profile;     // one a rung; empty when the program is not instrumented
   std::vector<core::PartState> parts; // one a task

@@ -9,6 +9,7 @@
 #include "rtlib/nc/config_key.h"
 #include "rtlib/nc/control/control.h"
 #include "rtlib/nc/control/gsk/gsk_control.h"
+#include "rtlib/nc/gsk/services.h"
 #include "rtlib/nc/gsk/window_functions.h"
 #include "sim/gsk/simulator.h"
 #include "sim/keys.h"
@@ -75,8 +76,8 @@ public:
 protected:
   // A high-speed request is answered in the scan of the call (man. l.8505). No answer was prepared for this one:
   // scripted, the function is not provided (inventory §18).
-  bool serve(runtime::Instance& instance, const core::ServiceRequest& request, core::ServiceReply& reply) override {
-    const auto window = windowRequest(instance, request);
+  bool serve(runtime::Instance&, const core::ServiceRequest& request, core::ServiceReply& reply) override {
+    const auto window = windowRequest(request);
     if (!window) return false;
     const nc::gsk::WindowFunction* function = nc::gsk::findWindowFunction(window->function);
     if (function == nullptr || function->speed != nc::gsk::WindowSpeed::High) return false;
@@ -123,20 +124,18 @@ private:
     for (Waiting& waiting : waiting_) --waiting.slots;
     while (!waiting_.empty() && waiting_.front().slots == 0) {
       const core::ServiceRequest& next = waiting_.front().request;
-      const auto window = windowRequest(instance, next);
+      const auto window = windowRequest(next);
       instance.services().complete(window ? replyOf(next, window->write, simulator_.answer(*window, signals))
-                                          : nc::refuse(instance.program(), next));
+                                          : control_.refuse(next));
       waiting_.erase(waiting_.begin());
     }
   }
 
-  // `windr function length number attribute`, `windw … data`.
-  static std::optional<gsk::WindowRequest> windowRequest(const runtime::Instance& instance,
-                                                         const core::ServiceRequest& request) {
-    const std::string_view name = runtime::serviceName(instance.program(), request.service);
+  static std::optional<gsk::WindowRequest> windowRequest(const core::ServiceRequest& request) {
+    const auto kind = static_cast<nc::gsk::ServiceKind>(request.name.kind);
     gsk::WindowRequest window;
-    window.write = name.starts_with("windw");
-    if (!window.write && !name.starts_with("windr")) return std::nullopt;
+    window.write = kind == nc::gsk::ServiceKind::WriteWindow;
+    if (!window.write && kind != nc::gsk::ServiceKind::ReadWindow) return std::nullopt;
     window.function = static_cast<uint32_t>(request.args[0]);
     window.length = static_cast<uint32_t>(request.args[1]);
     window.number = static_cast<uint32_t>(request.args[2]);

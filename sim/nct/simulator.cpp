@@ -10,6 +10,8 @@
 
 namespace rung::sim::nct {
 
+using nc::nct::ServiceKind;
+
 Simulator::Simulator()
     : topics_{&parameters_, &nvram_,   &machineOn_, &wiring_,   &spindles_,         &axes_,  &macros_, &screen_,
               &network_,    &mailbox_, &drives_,    &channels_, &programSelection_, &tools_, &pallets_},
@@ -70,7 +72,6 @@ void Simulator::deliver() {
 
 void Simulator::attach(runtime::Instance& instance, const SignalMemory& signals) {
   program_ = &instance.program();
-  findServices(*program_);
   links_.signals = signals;
   links_.memory = PlcMemory(instance);
   blocks_ = {};
@@ -109,41 +110,30 @@ void Simulator::timeSlice(runtime::Instance& instance, bool cycle) {
 
 // ---- services ----------------------------------------------------------------------------------------------------
 
-// "MR function address block -> code": the name is before its arguments.
-void Simulator::findServices(const rung_program& program) {
-  constexpr std::pair<std::string_view, Service> kNames[] = {{"MR", Service::Mr},     {"MW", Service::Mw},
-                                                             {"MACR", Service::Macr}, {"MACW", Service::Macw},
-                                                             {"SCP", Service::Scp},   {"MOVCMND", Service::Movcmnd}};
-  services_.assign(program.service_count, Service::Other);
-  for (uint32_t i = 0; i < program.service_count; ++i) {
-    std::string_view name = runtime::serviceName(program, i);
-    name = name.substr(0, name.find(' '));
-    for (const auto& [known, service] : kNames)
-      if (name == known) services_[i] = service;
-  }
-}
+namespace {
 
-Simulator::Service Simulator::serviceOf(const core::ServiceRequest& request) const {
-  return request.service < services_.size() ? services_[request.service] : Service::Other;
-}
+ServiceKind kindOf(const core::ServiceRequest& request) { return static_cast<ServiceKind>(request.name.kind); }
+bool isOfArrays(ServiceKind kind) { return kind == ServiceKind::ReadArray || kind == ServiceKind::WriteArray; }
+
+} // namespace
 
 // MACR, MACW, SCP, MOVCMND (man. 6.15-6.17). A refusal is FL_ER=1 in the box.
-Simulator::Outcome Simulator::answer(Service service, const int64_t* args, core::ServiceReply& reply) {
+Simulator::Outcome Simulator::answer(ServiceKind kind, const int64_t* args, core::ServiceReply& reply) {
   const auto give = [&](std::optional<double> value) {
     if (!value) return Outcome::Refused;
     reply.resultCount = 1;
     reply.results[0] = std::bit_cast<int64_t>(*value);
     return Outcome::Done;
   };
-  switch (service) {
-  case Service::Other:
-  case Service::Mr:
-  case Service::Mw: return Outcome::Refused;
-  case Service::Macr: return give(macros_.read(args[0], args[1]));
-  case Service::Macw:
+  switch (kind) {
+  case ServiceKind::Unknown:
+  case ServiceKind::ReadArray:
+  case ServiceKind::WriteArray: return Outcome::Refused;
+  case ServiceKind::ReadMacro: return give(macros_.read(args[0], args[1]));
+  case ServiceKind::WriteMacro:
     return macros_.write(args[0], args[1], std::bit_cast<double>(args[2])) ? Outcome::Done : Outcome::Refused;
-  case Service::Scp: return give(scope_.read(args[0], args[1], args[2]));
-  case Service::Movcmnd:
+  case ServiceKind::ReadScope: return give(scope_.read(args[0], args[1], args[2]));
+  case ServiceKind::MoveAxis:
     switch (axes_.load(args[0], args[1], std::bit_cast<double>(args[2]), std::bit_cast<double>(args[3]))) {
     case Axes::Load::Accepted: return Outcome::Done;
     case Axes::Load::Full: return Outcome::Later;
@@ -154,16 +144,16 @@ Simulator::Outcome Simulator::answer(Service service, const int64_t* args, core:
 }
 
 bool Simulator::respond(const core::ServiceRequest& request, core::ServiceReply& reply) {
-  const Service service = serviceOf(request);
-  if (service == Service::Other || service == Service::Mr || service == Service::Mw) return false;
+  const ServiceKind kind = kindOf(request);
+  if (kind == ServiceKind::Unknown || isOfArrays(kind)) return false;
   reply = {.ticket = request.ticket};
-  const Outcome outcome = answer(service, request.args, reply);
+  const Outcome outcome = answer(kind, request.args, reply);
   if (outcome == Outcome::Refused) reply.state = RUNG_SERVICE_ERROR;
   return outcome != Outcome::Later;
 }
 
 std::optional<int32_t> Simulator::execute(const core::ServiceRequest& request) {
-  const bool write = serviceOf(request) == Service::Mw;
+  const bool write = kindOf(request) == ServiceKind::WriteArray;
   const auto function = static_cast<uint32_t>(request.args[0]);
   const uint64_t first = static_cast<uint64_t>(request.args[2]) * 4;
   if (first > blocks_.size() || sizeof words_ > blocks_.size() - first) return 1;
@@ -189,14 +179,13 @@ void Simulator::betweenScans(runtime::Instance& instance) {
     links_.requestAgeUs = links_.nowUs - waiting_[i].sinceUs;
     core::ServiceReply reply{.ticket = request.ticket};
     Outcome outcome = Outcome::Done;
-    const Service service = serviceOf(request);
-    if (service == Service::Mr || service == Service::Mw) {
+    if (isOfArrays(kindOf(request))) {
       const std::optional<int32_t> code = execute(request);
       reply.resultCount = 1;
       reply.results[0] = code.value_or(0);
       if (!code) outcome = Outcome::Later;
     } else {
-      outcome = answer(service, request.args, reply);
+      outcome = answer(kindOf(request), request.args, reply);
     }
     if (outcome == Outcome::Refused) reply.state = RUNG_SERVICE_ERROR;
     if (outcome == Outcome::Later)

@@ -5,6 +5,7 @@
 #include <array>
 #include <vector>
 
+#include "rtlib/nc/nct/services.h"
 #include "sim/nct/axes.h"
 #include "sim/nct/channels.h"
 #include "sim/nct/drives.h"
@@ -48,15 +49,12 @@ public:
   void deliver();
 
 private:
-  enum class Service : uint8_t { Other, Mr, Mw, Macr, Macw, Scp, Movcmnd };
   void attach(runtime::Instance& instance, const SignalMemory& signals);
-  void findServices(const rung_program& program);
-  Service serviceOf(const core::ServiceRequest& request) const;
   // The execution code of a request; nothing: still at work.
   std::optional<int32_t> execute(const core::ServiceRequest& request);
   // The services of one cycle; nothing: not now.
   enum class Outcome : uint8_t { Done, Refused, Later };
-  Outcome answer(Service service, const int64_t* args, core::ServiceReply& reply);
+  Outcome answer(nc::nct::ServiceKind kind, const int64_t* args, core::ServiceReply& reply);
 
   Links makeLinks();
 
@@ -80,7 +78,6 @@ private:
   std::vector<Topic*> topics_; // in the order in which they work
 
   const rung_program* program_ = nullptr; // that is switched on; null: none yet
-  std::vector<Service> services_;         // by rung_program::services
   std::span<uint8_t> blocks_;             // the space @MB
   struct Waiting {
     core::ServiceRequest request;

@@ -21,7 +21,7 @@ public:
   // What the control's files say. "" or what is wrong, with its place.
   std::string define(std::span<const host::ParameterDefinition> parameters,
                      std::span<const host::ConstantDefinition> constants);
-  // Answers kConfigurationService. Allocates nothing.
+  // Answers a request of the kind Configuration. Allocates nothing.
   void respond(const core::ServiceRequest& request, core::ServiceReply& reply) const;
   // The identifier in UTF-8.
   std::optional<int64_t> constant(std::string_view id) const;

@@ -133,7 +133,7 @@ private:
   std::unordered_map<std::string, uint32_t> byKey_;
 };
 
-// What kDefineService declares.
+// What Define declares.
 std::optional<SharedVariable> variableOf(const core::ServiceRequest& request);
 
 // The connections of logical inputs and outputs, and the configuration of mapped ones (man. ch. 10, 27): a table of
@@ -166,7 +166,7 @@ public:
   void copy(runtime::Instance& instance, ModuleCells& cells, nc::ExchangePeriod slowest) const;
   // While the program is stopped: what passes from module to module, without ends that several connections set.
   void copyBetweenModules(runtime::Instance& instance, ModuleCells& cells) const;
-  // What kUpdateService answers.
+  // What UpdateInput answers.
   void update(runtime::Instance& instance, ModuleCells& cells, const core::ServiceRequest& request,
               core::ServiceReply& reply) const;
 

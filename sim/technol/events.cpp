@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <string>
 
-#include "rtlib/load/program_info.h"
 #include "rtlib/nc/control/technol/cells.h"
 #include "rtlib/nc/control/technol/operation.h"
+#include "rtlib/nc/technol/services.h"
 #include "rtlib/text/letters.h"
 
 namespace rung::sim::technol {
@@ -109,12 +109,12 @@ void driveAnswered(runtime::Instance& instance, int64_t axis, std::string_view b
 } // namespace
 
 void showLateAnswer(runtime::Instance& instance, const core::ServiceRequest& request, std::string_view bytes) {
-  std::string_view service = runtime::serviceName(instance.program(), request.service);
-  service = service.substr(0, service.find(' '));
+  using nc::technol::ServiceKind;
+  const auto kind = static_cast<ServiceKind>(request.name.kind);
   constexpr int64_t kMostAxes = 16;
   const auto isAxis = [](int64_t axis) { return axis >= 1 && axis <= kMostAxes; };
-  if (service == "SPI_AX" && isAxis(request.args[4])) positioned(instance, request.args[4]);
-  if (service == "CAN_AX_SEND" && isAxis(request.args[0])) driveAnswered(instance, request.args[0], bytes);
+  if (kind == ServiceKind::ToAxis && isAxis(request.args[4])) positioned(instance, request.args[4]);
+  if (kind == ServiceKind::CanDrive && isAxis(request.args[0])) driveAnswered(instance, request.args[0], bytes);
 }
 
 } // namespace rung::sim::technol

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cstring>
 
-#include "rtlib/load/program_info.h"
 #include "rtlib/nc/control/technol/cells.h"
 #include "rtlib/nc/control/technol/identifier.h"
+#include "rtlib/nc/technol/services.h"
 #include "rtlib/text/number.h"
 
 namespace rung::sim::technol {
@@ -76,12 +76,13 @@ void Exchange::define(runtime::Instance& instance, const core::ServiceRequest& r
 }
 
 bool Exchange::respond(runtime::Instance& instance, const core::ServiceRequest& request, core::ServiceReply& reply) {
-  const std::string_view service = runtime::serviceName(instance.program(), request.service);
-  if (service != nc::kDefineService && service != nc::kUpdateService) return false;
+  using nc::technol::ServiceKind;
+  const auto kind = static_cast<ServiceKind>(request.name.kind);
+  if (kind != ServiceKind::Define && kind != ServiceKind::UpdateInput) return false;
   reply.ticket = request.ticket;
   reply.state = RUNG_SERVICE_DONE;
   reply.resultCount = 3;
-  if (service == nc::kDefineService)
+  if (kind == ServiceKind::Define)
     define(instance, request, reply);
   else
     connections_.update(instance, cells_, request, reply);

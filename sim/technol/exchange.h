@@ -92,7 +92,7 @@ public:
   // While the program is stopped: modules exchange with each other.
   void idle(runtime::Instance& instance) { connections_.copyBetweenModules(instance, cells_); }
   void beforeWrite(runtime::Instance& instance, const runtime::Ref& place) { ports_.beforeWrite(instance, place); }
-  // The services kDefineService and kUpdateService; false: another one.
+  // Define and UpdateInput; false: another request.
   bool respond(runtime::Instance& instance, const core::ServiceRequest& request, core::ServiceReply& reply);
 
   const SharedVariables& shared() const { return shared_; }

@@ -4,7 +4,6 @@
 #include <span>
 
 #include "machine/host/control_files.h"
-#include "rtlib/load/program_info.h"
 #include "rtlib/nc/config_key.h"
 #include "rtlib/nc/control/technol/cells.h"
 #include "rtlib/nc/control/technol/technol_control.h"
@@ -182,7 +181,7 @@ protected:
       return true;
     }
     if (exchange_.respond(instance, request, reply)) return true;
-    if (runtime::serviceName(instance.program(), request.service) != nc::kConfigurationService) return false;
+    if (io::kindOf(request) != io::ServiceKind::Configuration) return false;
     configuration_.respond(request, reply);
     return true;
   }

@@ -101,10 +101,9 @@ std::string writtenName(const rung_program& program, const Ref& use) {
 
 namespace {
 
-// The interface of TECHNOL is one space for both directions; its table says which cells the control reads.
-bool isOutputOfTechnol(const rung_program& program, const Ref& place) {
-  if (program.dialect != std::string_view("technol") || program.spaces[place.space].name != std::string_view("NCI"))
-    return false;
+// The space NCI has both directions of TECHNOL's interface; its table says which cells the control reads.
+bool isInterfaceOutput(const rung_program& program, const Ref& place) {
+  if (program.spaces[place.space].name != std::string_view("NCI")) return false;
   const ir::BitRange bits = bitsOf(place);
   return std::ranges::any_of(nc::technolSignals(), [&](const nc::Signal& signal) {
     if (signal.direction == nc::Direction::In || signal.area != std::string_view("I")) return false;
@@ -138,7 +137,7 @@ bool isWrittenByControl(const rung_program& program, const ir::Uses& uses, const
 }
 
 bool isReadByControl(const rung_program& program, const ir::Uses& uses, const Ref& place) {
-  return isOnly(program, place.space, RUNG_SPACE_OUTPUT) || isOutputOfTechnol(program, place) ||
+  return isOnly(program, place.space, RUNG_SPACE_OUTPUT) || isInterfaceOutput(program, place) ||
          uses.isCleared(bitsOf(place)) || anyHas(program, uses.copiedTo(bitsOf(place)), RUNG_SPACE_OUTPUT);
 }
 

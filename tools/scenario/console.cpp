@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "frontend/dialects/dialect.h"
-#include "rtlib/load/program_info.h"
 #include "rtlib/nc/faults.h"
 #include "rtlib/text/letters.h"
 #include "rtlib/text/similar.h"
@@ -467,8 +466,7 @@ std::vector<std::string> beginning(std::string_view word, const std::vector<std:
 
 std::vector<std::string> services(const rung_program& program) {
   std::vector<std::string> names;
-  for (uint32_t i = 0; i < program.service_count; ++i)
-    names.push_back(ServiceSignature(runtime::serviceName(program, i)).name());
+  for (uint32_t i = 0; i < program.service_count; ++i) names.emplace_back(serviceRow(program, i).name);
   return names;
 }
 

@@ -16,7 +16,7 @@ namespace rung::scenario {
 std::optional<std::string> bytesOf(const Value& value, bool isHex);
 // Those in the memory of a program that an argument names; of a text up to its terminator.
 std::string bytesAt(const runtime::Instance& instance, int64_t argument, bool isText);
-// One part of an answer's bytes, for kDataService.
+// One part of an answer's bytes, for a request that fetches them.
 void putPart(std::string_view bytes, const core::ServiceRequest& request, core::ServiceReply& reply);
 
 // A request that a scenario may look at, with the bytes of its arguments as they were when it was made.

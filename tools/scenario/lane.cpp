@@ -74,7 +74,7 @@ void Lane::takeLog() {
 
 void Lane::ignore() {
   core::ServiceRequest request;
-  while (instance().services().take(request)) instance().services().complete(nc::refuse(instance().program(), request));
+  while (instance().services().take(request)) instance().services().complete(nc().control().refuse(request));
   unreadLog_.clear();
 }
 

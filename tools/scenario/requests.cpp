@@ -7,7 +7,6 @@
 #include <array>
 #include <bit>
 #include <optional>
-#include <sstream>
 #include <utility>
 
 #include "rtlib/load/program_info.h"
@@ -23,12 +22,30 @@
 
 namespace rung::scenario {
 
+using nc::technol::DeviceService;
 using runtime::Instance;
+
+nc::ServiceRow serviceRow(const rung_program& program, uint32_t service) {
+  const char* text = program.services[service];
+  const nc::ServiceRow* row = nc::serviceOf(program.dialect, nc::serviceKind(program.dialect, text));
+  return row != nullptr ? *row : nc::ServiceRow(nc::kUnknownService, text);
+}
 
 namespace {
 
 ServiceSignature signatureOf(const Instance& instance, const core::ServiceRequest& request) {
-  return ServiceSignature(runtime::serviceName(instance.program(), request.service));
+  const nc::ServiceRow* row = nc::serviceOf(instance.program().dialect, request.name.kind);
+  return ServiceSignature(row != nullptr ? *row : nc::ServiceRow(nc::kUnknownService, request.name.text));
+}
+
+// Null: it asks no device.
+const DeviceService* deviceServiceOf(const Instance& instance, const core::ServiceRequest& request) {
+  return nc::technol::deviceServiceOf(instance.program().dialect, request.name.kind);
+}
+
+bool fetchesBytes(const Instance& instance, const core::ServiceRequest& request) {
+  const DeviceService* asked = deviceServiceOf(instance, request);
+  return asked != nullptr && asked->device == nc::technol::Device::Bytes;
 }
 
 constexpr size_t kMostKept = core::ServiceQueue::kRecords; // answers whose bytes are still there
@@ -65,7 +82,7 @@ void Requests::answer(Instance& instance, const ServiceSignature& signature, con
 }
 
 bool Requests::respond(Instance& instance, const core::ServiceRequest& request, core::ServiceReply& reply) {
-  if (!bytes_.empty() && runtime::serviceName(instance.program(), request.service) == nc::technol::kDataService) {
+  if (!bytes_.empty() && fetchesBytes(instance, request)) {
     const auto found =
         std::ranges::find(bytes_, static_cast<uint32_t>(request.args[0]), &decltype(bytes_)::value_type::first);
     if (found != bytes_.end()) return putPart(found->second, request, reply), true;
@@ -86,17 +103,16 @@ bool Requests::respond(Instance& instance, const core::ServiceRequest& request, 
 }
 
 bool Requests::takeUnanswered(Instance& instance, const core::ServiceRequest& request, core::ServiceReply& reply) {
-  const std::string_view name = runtime::serviceName(instance.program(), request.service);
-  const nc::technol::DeviceService* service = nc::technol::findDeviceService(name);
+  const DeviceService* service = deviceServiceOf(instance, request);
   if (service == nullptr) return false;
-  Asked asked = askedNow(instance, ServiceSignature(name), request);
-  if (service->waits || service->lasts) {
+  Asked asked = askedNow(instance, ServiceSignature(service->service), request);
+  if (service->answer.waits || service->answer.lasts) {
     queued_.push_back(std::move(asked));
     return false;
   }
   reply.ticket = request.ticket;
-  reply.resultCount = static_cast<uint32_t>(std::size(service->unanswered));
-  std::ranges::copy(service->unanswered, reply.results);
+  reply.resultCount = static_cast<uint32_t>(std::size(service->answer.unanswered));
+  std::ranges::copy(service->answer.unanswered, reply.results);
   asked.complete = true;
   waiting_.push_back(std::move(asked));
   return true;
@@ -133,7 +149,8 @@ void Requests::programChanged(Instance& instance, const sim::Relocation& relocat
   const auto gone = [&](Asked& asked) {
     relocation.renumber(asked.request);
     const bool isGone = asked.request.service == RUNG_NONE;
-    if (isGone && !asked.complete) instance.services().complete(nc::refuse(instance.program(), asked.request));
+    if (isGone && !asked.complete)
+      instance.services().complete({.ticket = asked.request.ticket, .state = RUNG_SERVICE_ERROR});
     return isGone;
   };
   for (std::vector<Asked>* list : {&waiting_, &taken_}) {
@@ -197,7 +214,7 @@ std::string Requests::prepare(const Instance& instance, const Statement& s) {
   const rung_program& program = instance.program();
   std::string problem = fmt::format("this program never requests the service {}", s.name);
   for (uint32_t i = 0; i < program.service_count; ++i) {
-    const ServiceSignature signature(runtime::serviceName(program, i));
+    const ServiceSignature signature(serviceRow(program, i));
     if (!signature.isNamed(s.name)) continue;
     problem = keyProblem(signature, s.keys, s.results);
     if (!problem.empty()) continue;
@@ -210,7 +227,7 @@ std::string Requests::prepare(const Instance& instance, const Statement& s) {
 // Requests to services.
 
 using runtime::Instance;
-using Form = ServiceSignature::Form;
+using Form = nc::ServiceForm;
 
 namespace {
 
@@ -341,53 +358,33 @@ std::string unknownArgument(const ServiceSignature& signature, std::string_view 
 
 // ---- signatures ----------------------------------------------------------------------------------------------------
 
-ServiceSignature::ServiceSignature(std::string_view text) {
-  std::istringstream in{std::string(text)};
-  in >> name_;
-  for (std::string word; in >> word;) {
-    if (word == "->") {
-      takesNoAnswer_ = false;
-      continue;
-    }
-    const Form form = word.ends_with(":f")   ? Form::Real
-                      : word.ends_with(":s") ? Form::Text
-                      : word.ends_with(":b") ? Form::Bytes
-                                             : Form::Integer;
-    if (form != Form::Integer) word.resize(word.size() - 2);
-    (takesNoAnswer_ ? arguments_ : results_).push_back({word, form});
-  }
+bool ServiceSignature::isNamed(std::string_view name) const { return text::equalsIgnoringCase(row_.name, name); }
+
+int ServiceSignature::indexOf(const nc::ServiceValues& values, std::string_view key) {
+  for (uint32_t i = 0; i < values.count(); ++i)
+    if (text::equalsIgnoringCase(values[i].name, key)) return static_cast<int>(i);
+  return text::equalsIgnoringCase(key, "data") || text::equalsIgnoringCase(key, "Val") ? dataOf(values) : -1;
 }
 
-bool ServiceSignature::isNamed(std::string_view name) const { return text::equalsIgnoringCase(name_, name); }
-int ServiceSignature::argument(std::string_view key) const { return indexOf(arguments_, key); }
-int ServiceSignature::result(std::string_view key) const { return indexOf(results_, key); }
-
-int ServiceSignature::indexOf(const std::vector<Name>& names, std::string_view key) {
-  for (size_t i = 0; i < names.size(); ++i)
-    if (text::equalsIgnoringCase(names[i].text, key)) return static_cast<int>(i);
-  return text::equalsIgnoringCase(key, "data") || text::equalsIgnoringCase(key, "Val") ? dataOf(names) : -1;
+int ServiceSignature::dataOf(const nc::ServiceValues& values) {
+  for (uint32_t i = 0; i < values.count(); ++i)
+    if (values[i].form == Form::Text || values[i].form == Form::Bytes) return static_cast<int>(i);
+  return -1;
 }
 
-int ServiceSignature::dataOf(const std::vector<Name>& names) {
-  const auto found =
-      std::ranges::find_if(names, [](const Name& name) { return name.form == Form::Text || name.form == Form::Bytes; });
-  return found == names.end() ? -1 : static_cast<int>(found - names.begin());
-}
-
-std::string ServiceSignature::namesOf(const std::vector<Name>& names) const {
+std::string ServiceSignature::namesOf(const nc::ServiceValues& values) const {
   std::string all;
   const auto add = [&](std::string_view name) {
     if (!all.empty()) all += ", ";
     all += name;
   };
-  for (const Name& name : names)
-    if (name.text != "block") add(name.text);
+  for (uint32_t i = 0; i < values.count(); ++i)
+    if (values[i].name != "block") add(values[i].name);
   if (hasBlock()) add("wN, dN");
   return all;
 }
-std::string ServiceSignature::argumentNames() const { return namesOf(arguments_); }
 std::string ServiceSignature::resultNames() const {
-  const std::string names = namesOf(results_);
+  const std::string names = namesOf(row_.results);
   return names.empty() ? "error" : names + ", error";
 }
 

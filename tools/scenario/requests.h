@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "rtlib/core/queues.h"
+#include "rtlib/nc/service.h"
 #include "rtlib/run/instance.h"
 #include "sim/retained_tables.h"
 #include "sim/simulated_nc.h"
@@ -15,43 +16,37 @@
 
 namespace rung::scenario {
 
-// A service as rung_program names it: "NAME arg1 arg2 -> result1 result2". A name with ":f" after it is a real, whose
-// bits travel, with ":s" a text and with ":b" bytes, of which the result is the number; these are also called `data`.
-// Without "->" the service takes no answer. With an argument `block` the request has an operand block (see
-// rtlib/nc/nct/operand_block.h), whose words are arguments and results too: w4, or d4 for the double in words 4 and 5.
+// The row of a program's service; of one that no table knows, what its text says.
+nc::ServiceRow serviceRow(const rung_program& program, uint32_t service);
+
+// A service by the names of its arguments and results. Those that are a text or bytes are also called `data`. With an
+// argument `block` the request has an operand block (see rtlib/nc/nct/operand_block.h), whose words are arguments and
+// results too: w4, or d4 for the double in words 4 and 5.
 class ServiceSignature {
 public:
-  explicit ServiceSignature(std::string_view text);
-  const std::string& name() const { return name_; }
+  explicit ServiceSignature(const nc::ServiceRow& row) : row_(row) {}
+  std::string_view name() const { return row_.name; }
   bool isNamed(std::string_view name) const; // whatever the case
   // Index of an argument or result; -1 when there is none of this name.
-  int argument(std::string_view key) const;
-  int result(std::string_view key) const;
-  enum class Form : uint8_t { Integer, Real, Text, Bytes };
-  Form formOfArgument(int index) const { return arguments_[static_cast<size_t>(index)].form; }
-  Form formOfResult(int index) const { return results_[static_cast<size_t>(index)].form; }
-  int argumentCount() const { return static_cast<int>(arguments_.size()); }
+  int argument(std::string_view key) const { return indexOf(row_.arguments, key); }
+  int result(std::string_view key) const { return indexOf(row_.results, key); }
+  nc::ServiceForm formOfArgument(int index) const { return row_.arguments[static_cast<uint32_t>(index)].form; }
+  nc::ServiceForm formOfResult(int index) const { return row_.results[static_cast<uint32_t>(index)].form; }
+  int argumentCount() const { return static_cast<int>(row_.arguments.count()); }
   // The result that is a text or bytes, or -1.
-  int dataResult() const { return dataOf(results_); }
-  bool takesNoAnswer() const { return takesNoAnswer_; }
+  int dataResult() const { return dataOf(row_.results); }
+  bool takesNoAnswer() const { return !row_.takesAnswer; }
   bool hasBlock() const { return argument("block") >= 0; }
   // "function, address": for messages.
-  std::string argumentNames() const;
+  std::string argumentNames() const { return namesOf(row_.arguments); }
   std::string resultNames() const;
 
 private:
-  struct Name {
-    std::string text;
-    Form form = Form::Integer;
-  };
-  static int dataOf(const std::vector<Name>& names);
-  static int indexOf(const std::vector<Name>& names, std::string_view key);
-  std::string namesOf(const std::vector<Name>& names) const;
+  static int dataOf(const nc::ServiceValues& values);
+  static int indexOf(const nc::ServiceValues& values, std::string_view key);
+  std::string namesOf(const nc::ServiceValues& values) const;
 
-  std::string name_;
-  std::vector<Name> arguments_;
-  std::vector<Name> results_;
-  bool takesNoAnswer_ = true;
+  nc::ServiceRow row_;
 };
 
 // An answer that waits for its request.

@@ -69,7 +69,7 @@ ir::ValueId Lowering::runsSinceMark() {
   return b.sub(b.slotLoad(routine_.level->runs), b.slotLoad(runMark(*routine_.level)));
 }
 
-ir::ServiceId Lowering::service(std::string_view signature) { return module_.service(signature); }
+ir::ServiceId Lowering::service(const nc::ServiceRow& row) { return module_.service(row); }
 
 ir::Window Lowering::hidden(const std::string& name, uint32_t bytes, uint32_t legal) {
   return {module_.hiddenSpace(name, bytes), 0, legal};

@@ -9,6 +9,7 @@
 #include "frontend/network/lower/lowered_row.h"
 #include "frontend/network/program.h"
 #include "ir/core/builder.h"
+#include "rtlib/nc/service.h"
 
 namespace rung::frontend::network {
 
@@ -59,7 +60,7 @@ public:
   // Remembers the current run of each level; how many runs ago that was, on this level (signed).
   void markRun();
   ir::ValueId runsSinceMark();
-  ir::ServiceId service(std::string_view signature);
+  ir::ServiceId service(const nc::ServiceRow& row);
   // A space that the host writes or reads by its name; `legal` of its bytes may be the first of an element.
   ir::Window hidden(const std::string& name, uint32_t bytes, uint32_t legal);
   // Constant bytes in a hidden space; `legal` of them may be the first of an element.

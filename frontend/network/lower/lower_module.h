@@ -92,7 +92,7 @@ public:
   ir::SpaceId constantSpace(std::string_view bytes) { return constants_.spaceOf(bytes); }
   // One for a name, however often it is asked for.
   ir::SpaceId hiddenSpace(const std::string& name, uint32_t bytes);
-  ir::ServiceId service(std::string_view signature) { return frontend::service(*module_, signature); }
+  ir::ServiceId service(const nc::ServiceRow& row) { return frontend::service(*module_, row); }
   ir::SlotId leaveTarget() { return slot("@leave", ir::Type::I32, 0, false); }
 
 private:

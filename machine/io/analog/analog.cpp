@@ -50,9 +50,9 @@ void AnalogOutputs::leave(uint32_t axis) {
 namespace {
 
 bool hasAnalogOutputs(const rung_program& program) {
-  return std::ranges::any_of(deviceOrders(program), [](const DeviceOrder& order) {
-    const auto axis = static_cast<AxisOrder>(order.order);
-    return order.device == DeviceKind::Axes && axis >= AxisOrder::AnalogPort && axis <= AxisOrder::MainSpindle;
+  return std::any_of(program.services, program.services + program.service_count, [&](const char* text) {
+    const auto kind = static_cast<ServiceKind>(nc::serviceKind(program.dialect, text));
+    return kind >= ServiceKind::AnalogPort && kind <= ServiceKind::MainSpindle;
   });
 }
 
@@ -79,13 +79,6 @@ void setOutput(DeviceCall& call, const AnalogOutput& output) {
   call.setReal(1, output.value);
 }
 
-// ANALOG val port, or ANALOG val axis spi.
-AnalogOutput analog(AnalogTarget& target, const DeviceCall& call) {
-  if (call.argCount() == 3) return target.analogOnSpindle(call.arg(0), call.arg(1), call.argOr(2, 0));
-  target.analogPort(call.arg(1));
-  return target.analog(call.arg(0));
-}
-
 // Of AX_SPI: 0, 1, 2, or kFirstSpindleWord for S; not given, it is the main spindle (inventory of the services, 4).
 SpindleRole roleOf(int64_t operand) {
   if (operand == nc::technol::kNotGiven) return SpindleRole::Main;
@@ -94,13 +87,19 @@ SpindleRole roleOf(int64_t operand) {
 
 } // namespace
 
-bool answerAnalog(AnalogTarget& target, AxisOrder order, DeviceCall& call) {
-  switch (order) {
-  case AxisOrder::AnalogPort: target.analogPort(call.arg(0)); return true;
-  case AxisOrder::Analog: setOutput(call, analog(target, call)); return true;
-  case AxisOrder::AnalogSpindle: setOutput(call, target.analogSpi(call.arg(0), call.arg(1))); return true;
-  case AxisOrder::ToSpindle: setOutput(call, target.axSpi(call.arg(0), roleOf(call.arg(1)))); return true;
-  case AxisOrder::MainSpindle: target.spiMain(call.arg(0)); return true;
+bool answerAnalog(AnalogTarget& target, DeviceCall& call) {
+  switch (call.kind()) {
+  case ServiceKind::AnalogPort: target.analogPort(call.arg(0)); return true;
+  case ServiceKind::Analog:
+    target.analogPort(call.arg(1));
+    setOutput(call, target.analog(call.arg(0)));
+    return true;
+  case ServiceKind::AnalogOfAxis:
+    setOutput(call, target.analogOnSpindle(call.arg(0), call.arg(1), call.argOr(2, 0)));
+    return true;
+  case ServiceKind::AnalogSpindle: setOutput(call, target.analogSpi(call.arg(0), call.arg(1))); return true;
+  case ServiceKind::ToSpindle: setOutput(call, target.axSpi(call.arg(0), roleOf(call.arg(1)))); return true;
+  case ServiceKind::MainSpindle: target.spiMain(call.arg(0)); return true;
   default: return false;
   }
 }

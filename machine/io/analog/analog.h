@@ -83,7 +83,7 @@ protected:
   ~AnalogTarget() = default;
 };
 
-// False: another order.
-bool answerAnalog(AnalogTarget& target, AxisOrder order, DeviceCall& call);
+// False: another request.
+bool answerAnalog(AnalogTarget& target, DeviceCall& call);
 
 } // namespace rung::io

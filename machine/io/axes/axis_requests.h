@@ -16,40 +16,15 @@ namespace rung::io {
 
 class DeviceCall;
 
-// What a request asks for; None: no such service.
-enum class AxisOrder : uint8_t {
-  None,
-  AnalogPort,
-  Analog,
-  AnalogSpindle,
-  ToSpindle,
-  MainSpindle,
-  ToAxis,
-  RegulatorX, // and those of the five next axes
-  RegulatorY,
-  RegulatorZ,
-  Regulator4,
-  Regulator5,
-  Regulator6,
-  PositionInit,
-  PositionReset,
-  PositionMode,
-  PositionControl,
-};
-AxisOrder axisOrder(std::string_view service);
-
 struct WrongOperand {
   std::string_view operand;
   int64_t value = 0;
 };
-// The first operand of an order to axes that is outside what the instruction takes, as a cell may have it: it then does
-// nothing. Nothing: none is, or it is an order to another device.
-std::optional<WrongOperand> outOfRange(DeviceOrder order, const core::ServiceRequest& request);
+// The first operand of a request to axes that is outside what the instruction takes, as a cell may have it: it then
+// does nothing. Nothing: none is, or it is a request to another device.
+std::optional<WrongOperand> outOfRange(const core::ServiceRequest& request);
 // Answers one that does nothing: records stay as they are.
-void answerNothing(AxisOrder order, DeviceCall& call);
-
-// The mnemonic; "" of None.
-std::string_view nameOf(AxisOrder order);
+void answerNothing(DeviceCall& call);
 
 // Cells of axes that simulated and real ones have alike (inventory of the services, 1.6, 15.1): what lets them move,
 // the position loop, requests for motions and places.
@@ -105,8 +80,8 @@ protected:
 };
 
 // The axis of such an order, as it is given; nothing: another order.
-std::optional<int64_t> positionedAxis(AxisOrder order, const core::ServiceRequest& request);
+std::optional<int64_t> positionedAxis(const core::ServiceRequest& request);
 // False: another order.
-bool answerPosition(PositionTarget& target, const AxisCells& cells, AxisOrder order, DeviceCall& call);
+bool answerPosition(PositionTarget& target, const AxisCells& cells, DeviceCall& call);
 
 } // namespace rung::io

@@ -12,6 +12,12 @@
 
 namespace rung::io {
 
+namespace {
+
+constexpr auto kFirstKind = static_cast<uint32_t>(ServiceKind::AnalogPort);
+
+} // namespace
+
 OutputPlaces::OutputPlaces(const rung_program& program) {
   nc::technol::locateElements(program, "SU_OUT_PLC", outputs_);
 }
@@ -26,17 +32,16 @@ void AxisService::powerOn() noexcept {
   positioned_.powerOn();
 }
 
-bool AxisService::answer(DeviceOrder device, DeviceCall& call, const AxisCells& cells) {
-  const auto order = static_cast<AxisOrder>(device.order);
-  const uint32_t bit = 1u << static_cast<uint32_t>(order);
-  if (outOfRange(device, call.request())) {
+bool AxisService::answer(DeviceCall& call, const AxisCells& cells) {
+  const uint32_t bit = 1u << (static_cast<uint32_t>(call.kind()) - kFirstKind);
+  if (outOfRange(call.request())) {
     outOfRange_.fetch_or(bit, std::memory_order_relaxed);
-    answerNothing(order, call);
+    answerNothing(call);
     return true;
   }
-  if (answerAnalog(*this, order, call)) return true;
-  if (const auto axis = positionedAxis(order, call.request()); axis && positioned_.has(*axis))
-    return answerPosition(positioned_, cells, order, call);
+  if (answerAnalog(*this, call)) return true;
+  if (const auto axis = positionedAxis(call.request()); axis && positioned_.has(*axis))
+    return answerPosition(positioned_, cells, call);
   refused_.fetch_or(bit, std::memory_order_relaxed);
   return false;
 }
@@ -74,11 +79,14 @@ void AxisService::spiMain(int64_t axis) {
 // ---- for people ----------------------------------------------------------------------------------------------------
 
 void AxisService::report(std::vector<std::string>& lines) {
-  const auto add = [&lines](const std::atomic<uint32_t>& orders, uint32_t& reported, const char* sentence) {
-    const uint32_t all = orders.load(std::memory_order_relaxed);
+  const auto nameOf = [](uint32_t bit) {
+    return std::string(nc::technol::deviceService(static_cast<ServiceKind>(kFirstKind + bit)).service.name);
+  };
+  const auto add = [&](const std::atomic<uint32_t>& kinds, uint32_t& reported, const char* sentence) {
+    const uint32_t all = kinds.load(std::memory_order_relaxed);
     const uint32_t fresh = all & ~std::exchange(reported, all);
     for (uint32_t i = 0; i < 32; ++i)
-      if ((fresh >> i & 1) != 0) lines.push_back(std::string(nameOf(static_cast<AxisOrder>(i))) + sentence);
+      if ((fresh >> i & 1) != 0) lines.push_back(nameOf(i) + sentence);
   };
   add(refused_, refusedReported_,
       positioned_.added() == 0 ? ": this host cannot move axes for the program; the instruction is refused"

@@ -117,7 +117,7 @@ public:
   // ---- the scan; nothing waits, allocates or locks
   void powerOn() noexcept;
   // False: it is refused.
-  bool answer(DeviceOrder order, DeviceCall& call, const AxisCells& cells);
+  bool answer(DeviceCall& call, const AxisCells& cells);
   // After a fault: outputs are 0, positioning units brake.
   void fault(const core::Memory& memory, const OutputPlaces& places) noexcept;
 
@@ -135,7 +135,7 @@ private:
   AnalogOutputs outputs_;
   PositionedAxes positioned_;
   uint32_t spindles_ = 0;                            // by AX_SPI, a bit each
-  std::atomic<uint32_t> refused_{0}, outOfRange_{0}; // a bit for each order
+  std::atomic<uint32_t> refused_{0}, outOfRange_{0}; // a bit for each kind of request, from AnalogPort on
   uint32_t refusedReported_ = 0, outOfRangeReported_ = 0;
 };
 

@@ -36,32 +36,18 @@ std::optional<int64_t> movedBytes(const runtime::Relocation& relocation, int64_t
 
 } // namespace
 
-CanRequest canRequest(std::string_view service) {
-  constexpr std::string_view kOrders[] = {"",
-                                          "CAN_SEND",
-                                          "CAN_RECV",
-                                          "CAN_RECV_REQ",
-                                          "CAN_RECV_DEL",
-                                          "CAN_RECV_END",
-                                          "CAN_SYSIO_READ",
-                                          "CAN_SYSIO_WRITE",
-                                          "CAN_AX_SEND"};
-  return orderOf<CanRequest>(kOrders, service);
-}
-
 CanCalls::CanCalls(CanController& can) : can_(can), itemWidths_(itemWidths()) {}
 
-void CanCalls::answer(CanRequest order, DeviceCall& call) {
-  switch (order) {
-  case CanRequest::None: return;
-  case CanRequest::Send: return send(call);
-  case CanRequest::Receive: return receive(call);
-  case CanRequest::Order: return this->order(call);
-  case CanRequest::DeleteOrder:
-  case CanRequest::EndOrder: return endOrder(call);
-  case CanRequest::ReadItem: return readItem(call);
-  case CanRequest::WriteItem: return writeItem(call);
-  case CanRequest::Drive: return sendToDrive(call);
+void CanCalls::answer(DeviceCall& call) {
+  switch (call.kind()) {
+  case ServiceKind::CanSend: return send(call);
+  case ServiceKind::CanReceive: return receive(call);
+  case ServiceKind::CanOrder: return order(call);
+  case ServiceKind::CanDeleteOrder:
+  case ServiceKind::CanEndOrder: return endOrder(call);
+  case ServiceKind::CanReadItem: return readItem(call);
+  case ServiceKind::CanWriteItem: return writeItem(call);
+  default: return sendToDrive(call);
   }
 }
 

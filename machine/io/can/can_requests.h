@@ -14,10 +14,6 @@
 
 namespace rung::io {
 
-// What a request asks for; None: no such service.
-enum class CanRequest : uint8_t { None, Send, Receive, Order, DeleteOrder, EndOrder, ReadItem, WriteItem, Drive };
-CanRequest canRequest(std::string_view service);
-
 // Where the cells lie in a program; the tasks of its event procedures.
 class CanPlaces {
 public:
@@ -81,7 +77,7 @@ public:
   void relocate(const CanPlaces& former, const CanPlaces& now, const runtime::Relocation& relocation) noexcept;
   // The oldest such order that was not taken, of at most 64; any one thread.
   bool takeEnded(EndedOrder& order) { return ended_.pop(order); }
-  void answer(CanRequest order, DeviceCall& call);
+  void answer(DeviceCall& call);
   // After the ticks of a scan: what has come goes into the buffers of orders, and their procedures run; else it waits
   // for CAN_RECV. A program that is stopped has no orders, and its packets are dropped.
   void deliver(runtime::Instance& instance, const CanPlaces& places);

@@ -38,7 +38,7 @@ public:
   void step(int64_t ns) noexcept;
   // At a power-on, before MODULE_INIT.
   void powerOn() noexcept;
-  void answer(CanRequest order, DeviceCall& call) { calls_.answer(order, call); }
+  void answer(DeviceCall& call) { calls_.answer(call); }
   // Before MODULE_INPUT: what has come is in the cells, and procedures of orders have run.
   void show(runtime::Instance& instance, const CanPlaces& places) noexcept;
   // At the end of a scan: what the program wants until the next.

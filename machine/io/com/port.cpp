@@ -182,28 +182,22 @@ void control(com::Port& port, DeviceCall& call) {
   call.set(1, count.value_or(0));
 }
 
-void answerOf(com::Port& port, ComOrder order, DeviceCall& call) {
-  switch (order) {
-  case ComOrder::None: return;
-  case ComOrder::Send: return send(port, call);
-  case ComOrder::SendText: return sendText(port, call);
-  case ComOrder::Receive: return receive(port, call);
-  case ComOrder::Control: return control(port, call);
+void answerOf(com::Port& port, DeviceCall& call) {
+  switch (call.kind()) {
+  case ServiceKind::ComSend: return send(port, call);
+  case ServiceKind::ComSendText: return sendText(port, call);
+  case ServiceKind::ComReceive: return receive(port, call);
+  default: return control(port, call);
   }
 }
 
 } // namespace
 
-ComOrder comOrder(std::string_view service) {
-  constexpr std::string_view kOrders[] = {"", "COM_SEND", "COM_SEND_STR", "COM_RECV", "COM_CONTROL"};
-  return orderOf<ComOrder>(kOrders, service);
-}
-
 // A null port is answered as one that is not configured.
-void answerCom(com::Port* port, ComOrder order, DeviceCall& call) {
-  if (port != nullptr) return answerOf(*port, order, call);
+void answerCom(com::Port* port, DeviceCall& call) {
+  if (port != nullptr) return answerOf(*port, call);
   com::Port none;
-  answerOf(none, order, call);
+  answerOf(none, call);
 }
 
 } // namespace rung::io

@@ -42,31 +42,25 @@ Master::Ticket command(Master& master, Station at, const DeviceCall& call) {
 }
 
 // 0: the master does not take it.
-Master::Ticket ask(Master& master, EthercatOrder order, const DeviceCall& call) {
+Master::Ticket ask(Master& master, const DeviceCall& call) {
   const Station at = {call.number(0), call.number(1)};
-  switch (order) {
-  case EthercatOrder::None: break;
-  case EthercatOrder::ReadObject: return upload(master, at, call);
-  case EthercatOrder::WriteObject: return download(master, at, call);
-  case EthercatOrder::ReadIdn: return readIdn(master, at, call);
-  case EthercatOrder::WriteIdn: return writeIdn(master, at, call);
-  case EthercatOrder::Command: return command(master, at, call);
+  switch (call.kind()) {
+  case ServiceKind::EthercatReadObject: return upload(master, at, call);
+  case ServiceKind::EthercatWriteObject: return download(master, at, call);
+  case ServiceKind::EthercatReadIdn: return readIdn(master, at, call);
+  case ServiceKind::EthercatWriteIdn: return writeIdn(master, at, call);
+  default: return command(master, at, call);
   }
-  return 0;
 }
 
-bool writes(EthercatOrder order) { return order == EthercatOrder::WriteObject || order == EthercatOrder::WriteIdn; }
+bool writes(ServiceKind kind) {
+  return kind == ServiceKind::EthercatWriteObject || kind == ServiceKind::EthercatWriteIdn;
+}
 
 // Results: DR, Len, of what reads the number of its data, of an IDN its elements.
 enum Result : uint32_t { kCode, kLength, kRest, kMostResults = 4 };
 
 } // namespace
-
-EthercatOrder ethercatOrder(std::string_view service) {
-  constexpr std::string_view kOrders[] = {
-      "", "ECAT_COE_READ", "ECAT_COE_WRITE", "ECAT_SOE_READ", "ECAT_SOE_WRITE", "ECAT_COMMAND"};
-  return orderOf<EthercatOrder>(kOrders, service);
-}
 
 void EthercatCalls::clear() {
   for (Pending& pending : pending_) {
@@ -75,12 +69,12 @@ void EthercatCalls::clear() {
   }
 }
 
-void EthercatCalls::begin(EthercatOrder order, DeviceCall& call) {
+void EthercatCalls::begin(DeviceCall& call) {
   Pending* free = std::ranges::find(pending_, 0u, &Pending::ticket);
   const bool room = free != std::end(pending_);
-  const Master::Ticket asked = room ? ask(master_, order, call) : 0;
+  const Master::Ticket asked = room ? ask(master_, call) : 0;
   if (asked == 0) return call.set(kCode, ethercat::kTimedOut);
-  *free = {.ticket = call.request().ticket, .asked = asked, .writes = writes(order)};
+  *free = {.ticket = call.request().ticket, .asked = asked, .writes = writes(call.kind())};
   call.wait();
 }
 

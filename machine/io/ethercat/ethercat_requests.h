@@ -53,17 +53,13 @@ private:
 
 // ECAT_*: requests of a program to an EtherCAT master, and the cells that order its states (man. ch. 26).
 
-// What a request asks for; None: no such service.
-enum class EthercatOrder : uint8_t { None, ReadObject, WriteObject, ReadIdn, WriteIdn, Command };
-EthercatOrder ethercatOrder(std::string_view service);
-
 // Requests that the master has not answered yet.
 class EthercatCalls {
 public:
   explicit EthercatCalls(ethercat::Master& master) : master_(master) {}
 
   void clear();
-  void begin(EthercatOrder order, DeviceCall& call);
+  void begin(DeviceCall& call);
   // After a tick: answers what is done. True: something was.
   bool finish(runtime::Instance& instance, AnswerBytes& bytes);
 

@@ -1,28 +1,11 @@
 // Requests to tables and areas (see table_requests.h).
 #include "machine/io/tables/table_requests.h"
 
-#include <iterator>
-
 namespace rung::io {
 
 namespace {
 
-constexpr std::string_view kOrders[] = {"",
-                                        "PLCT_GET_INT",
-                                        "PLCT_GET_REAL",
-                                        "PLCT_GET_STR",
-                                        "PLCT_GET_BIN",
-                                        "PLCT_SET_INT",
-                                        "PLCT_SET_REAL",
-                                        "PLCT_SET_STR",
-                                        "PLCT_SET_BIN",
-                                        "PLCT_COL_INDEX",
-                                        "PLCT_COL_ID",
-                                        "PLCT_COL_TYPE",
-                                        "PLCT_GET_SELLINE",
-                                        "PLCT_SET_SELLINE",
-                                        "PLCT_CHANGED",
-                                        "PLCT_GET_LINESCOUNT"};
+using enum ServiceKind;
 
 // Arguments 0 to 2 are table, line, column, the fourth is the value; results are DR and the value.
 constexpr uint32_t kTextOfColumn = 1, kValueIn = 3, kValueOut = 1;
@@ -32,18 +15,18 @@ std::span<const uint8_t> asBytes(std::string_view text) {
   return {reinterpret_cast<const uint8_t*>(text.data()), text.size()};
 }
 
-TableError get(PlcTables& tables, TableOrder order, DeviceCall& call) {
+TableError get(PlcTables& tables, DeviceCall& call) {
   const uint32_t table = call.number(0), line = call.number(1), column = call.number(2);
   TableError error = TableError::None;
-  if (order == TableOrder::GetInt) {
+  if (call.kind() == TableGetInt) {
     int32_t value = 0;
     error = tables.getInt(table, line, column, value);
     call.set(kValueOut, value);
-  } else if (order == TableOrder::GetReal) {
+  } else if (call.kind() == TableGetReal) {
     double value = 0;
     error = tables.getReal(table, line, column, value);
     call.setReal(kValueOut, value);
-  } else if (order == TableOrder::GetText) {
+  } else if (call.kind() == TableGetText) {
     std::string_view text;
     error = tables.getText(table, line, column, text);
     call.setBytes(kValueOut, asBytes(text));
@@ -55,27 +38,27 @@ TableError get(PlcTables& tables, TableOrder order, DeviceCall& call) {
   return error;
 }
 
-TableError put(PlcTables& tables, TableOrder order, DeviceCall& call) {
+TableError put(PlcTables& tables, DeviceCall& call) {
   const uint32_t table = call.number(0), line = call.number(1), column = call.number(2);
   Room room;
-  switch (order) {
-  case TableOrder::SetInt: return tables.setInt(table, line, column, static_cast<int32_t>(call.arg(kValueIn)));
-  case TableOrder::SetReal: return tables.setReal(table, line, column, call.real(kValueIn));
-  case TableOrder::SetText: return tables.setText(table, line, column, call.text(kValueIn, room));
+  switch (call.kind()) {
+  case TableSetInt: return tables.setInt(table, line, column, static_cast<int32_t>(call.arg(kValueIn)));
+  case TableSetReal: return tables.setReal(table, line, column, call.real(kValueIn));
+  case TableSetText: return tables.setText(table, line, column, call.text(kValueIn, room));
   default: return tables.setBinary(table, line, column, call.bytes(kValueIn, room));
   }
 }
 
-TableError column(PlcTables& tables, TableOrder order, DeviceCall& call) {
+TableError column(PlcTables& tables, DeviceCall& call) {
   const uint32_t table = call.number(0);
-  if (order == TableOrder::ColumnIndex) {
+  if (call.kind() == TableColumnIndex) {
     Room room;
     uint32_t number = 0;
     const TableError error = tables.columnIndex(table, call.text(kTextOfColumn, room), number);
     call.set(kValueOut, number);
     return error;
   }
-  if (order == TableOrder::ColumnId) {
+  if (call.kind() == TableColumnId) {
     std::string_view id;
     const TableError error = tables.columnId(table, call.number(1), id);
     call.setBytes(kValueOut, asBytes(id));
@@ -87,40 +70,36 @@ TableError column(PlcTables& tables, TableOrder order, DeviceCall& call) {
   return error;
 }
 
-TableError lines(PlcTables& tables, TableOrder order, DeviceCall& call) {
+TableError lines(PlcTables& tables, DeviceCall& call) {
   const uint32_t table = call.number(0);
   uint32_t number = 0;
   TableChange change{};
   TableError error = TableError::None;
-  switch (order) {
-  case TableOrder::SelectedLine: error = tables.selectedLine(table, number); break;
-  case TableOrder::Select: return tables.select(table, call.number(1));
-  case TableOrder::LineCount: error = tables.lineCount(table, number); break;
+  switch (call.kind()) {
+  case TableSelectedLine: error = tables.selectedLine(table, number); break;
+  case TableSelect: return tables.select(table, call.number(1));
+  case TableLineCount: error = tables.lineCount(table, number); break;
   default: error = tables.takeChange(table, change); number = static_cast<uint32_t>(change);
   }
   call.set(kValueOut, number);
   return error;
 }
 
-TableError carryOut(PlcTables& tables, TableOrder order, DeviceCall& call) {
-  if (order <= TableOrder::GetBinary) return get(tables, order, call);
-  if (order <= TableOrder::SetBinary) return put(tables, order, call);
-  if (order <= TableOrder::ColumnType) return column(tables, order, call);
-  return lines(tables, order, call);
+TableError carryOut(PlcTables& tables, DeviceCall& call) {
+  if (call.kind() <= TableGetBinary) return get(tables, call);
+  if (call.kind() <= TableSetBinary) return put(tables, call);
+  if (call.kind() <= TableColumnType) return column(tables, call);
+  return lines(tables, call);
 }
 
 } // namespace
 
-TableOrder tableOrder(std::string_view service) { return orderOf<TableOrder>(kOrders, service); }
-
-std::optional<uint32_t> bytesArgumentOf(TableOrder order) {
-  if (order == TableOrder::SetText || order == TableOrder::SetBinary) return kValueIn;
-  return order == TableOrder::ColumnIndex ? std::optional(kTextOfColumn) : std::nullopt;
+std::optional<uint32_t> bytesArgumentOf(ServiceKind kind) {
+  if (kind == TableSetText || kind == TableSetBinary) return kValueIn;
+  return kind == TableColumnIndex ? std::optional(kTextOfColumn) : std::nullopt;
 }
 
-void answerTable(PlcTables& tables, TableOrder order, DeviceCall& call) {
-  call.set(0, static_cast<int64_t>(carryOut(tables, order, call)));
-}
+void answerTable(PlcTables& tables, DeviceCall& call) { call.set(0, static_cast<int64_t>(carryOut(tables, call))); }
 
 namespace {
 
@@ -133,11 +112,9 @@ void setArea(DeviceCall& call, AreaResult result) {
 } // namespace
 
 // Arguments: area, offset, size; the bytes are the third result or the fourth argument.
-void readShared(SharedAreas& areas, DeviceCall& call) {
-  setArea(call, areas.read(call.number(0), call.number(1), call.makeBytes(2, call.number(2))));
-}
-
-void writeShared(SharedAreas& areas, DeviceCall& call) {
+void answerArea(SharedAreas& areas, DeviceCall& call) {
+  if (call.kind() == AreaRead)
+    return setArea(call, areas.read(call.number(0), call.number(1), call.makeBytes(2, call.number(2))));
   Room room;
   setArea(call, areas.write(call.number(0), call.number(1), call.bytes(3, room)));
 }

@@ -9,31 +9,10 @@
 
 namespace rung::io {
 
-// What a request asks for; None: no such service.
-enum class TableOrder : uint8_t {
-  None,
-  GetInt,
-  GetReal,
-  GetText,
-  GetBinary,
-  SetInt,
-  SetReal,
-  SetText,
-  SetBinary,
-  ColumnIndex,
-  ColumnId,
-  ColumnType,
-  SelectedLine,
-  Select,
-  Changed,
-  LineCount,
-};
-TableOrder tableOrder(std::string_view service);
 // The argument that means bytes of the program; nothing: none does.
-std::optional<uint32_t> bytesArgumentOf(TableOrder order);
-void answerTable(PlcTables& tables, TableOrder order, DeviceCall& call);
+std::optional<uint32_t> bytesArgumentOf(ServiceKind kind);
+void answerTable(PlcTables& tables, DeviceCall& call);
 
-void readShared(SharedAreas& areas, DeviceCall& call);
-void writeShared(SharedAreas& areas, DeviceCall& call);
+void answerArea(SharedAreas& areas, DeviceCall& call);
 
 } // namespace rung::io

@@ -28,14 +28,13 @@ std::string TableService::setTable(uint32_t table, const std::string& path) {
 
 // ---- the scan ------------------------------------------------------------------------------------------------------
 
-bool TableService::ask(TableOrder order, const DeviceCall& call) noexcept {
+bool TableService::ask(const DeviceCall& call) noexcept {
   if (freeCount_ == 0) return false;
   const uint8_t number = free_[--freeCount_];
   Slot& slot = slots_[number];
   slot.generation = generation_;
-  slot.order = order;
   slot.given = call.request();
-  const auto argument = bytesArgumentOf(order);
+  const auto argument = bytesArgumentOf(call.kind());
   slot.count = argument ? static_cast<uint32_t>(call.bytes(*argument, slot.bytes).size()) : 0;
   return asked_.push(number);
 }
@@ -86,7 +85,7 @@ void TableService::serve() noexcept {
     slot.reply = {};
     BytesOf room(slot);
     DeviceCall call(given, slot.given, slot.reply, room);
-    answerTable(tables_, slot.order, call);
+    answerTable(tables_, call);
     answered_.push(number);
   }
 }

@@ -43,7 +43,7 @@ public:
   // At a power-on: answers to earlier requests are dropped.
   void powerOn() noexcept { ++generation_; }
   // Within the instruction. False: no room for the request.
-  bool ask(TableOrder order, const DeviceCall& call) noexcept;
+  bool ask(const DeviceCall& call) noexcept;
   // Between two scans. True: there were answers, which are to be delivered.
   bool takeAnswers(core::ServiceQueue& services, AnswerBytes& bytes) noexcept;
 
@@ -51,7 +51,6 @@ private:
   // A request and its answer, which go to the thread and come back.
   struct Slot {
     uint32_t generation = 0;
-    TableOrder order{};
     core::ServiceRequest given;
     core::ServiceReply reply;
     uint32_t count = 0; // bytes of the program, then those of the answer

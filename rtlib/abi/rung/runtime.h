@@ -122,7 +122,7 @@ typedef struct rung_request {
   uint32_t ticket;
   const char* service; /* as rung_program::services has it: name, arguments, results; valid as long as the instance */
   uint32_t arg_count;
-  uint32_t reserved;
+  uint32_t kind; /* a number for this text that all programs of the dialect have; 0: the library does not know it */
   int64_t args[RUNG_MAX_SERVICE_ARGS];
 } rung_request;
 

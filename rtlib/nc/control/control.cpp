@@ -8,7 +8,6 @@
 #include "rtlib/nc/control/gsk/gsk_control.h"
 #include "rtlib/nc/control/nct/nct_control.h"
 #include "rtlib/nc/control/technol/technol_control.h"
-#include "rtlib/nc/gsk/window_functions.h"
 #include "rtlib/nc/names/names.h"
 
 namespace rung::nc {
@@ -29,11 +28,6 @@ void Control::exchangePlaces(runtime::Instance& instance, std::unique_ptr<Places
 void Control::onReplace(runtime::Instance& instance) {
   std::unique_ptr<Places> places = locate(instance.program());
   exchangePlaces(instance, places);
-}
-
-bool Control::respond(runtime::Instance& instance, const core::ServiceRequest& request, core::ServiceReply& reply) {
-  reply = refuse(instance.program(), request);
-  return true;
 }
 
 std::optional<runtime::Ref> Control::readPlace(const rung_program& program, std::string_view name) const {
@@ -95,29 +89,6 @@ bool Retention::afterSlice() noexcept {
   const bool saved = memory_.offer(*instance_, asked);
   if (saved) control_->saved(*instance_);
   return saved || !asked;
-}
-
-// The refusal of a request.
-
-namespace {
-
-// "windr function length … -> end data": the name is before its arguments. Other services differ in the first letters.
-bool isOf(const char* service, const char* name) noexcept {
-  for (; *name != '\0'; ++service, ++name)
-    if (*service != *name) return false;
-  return *service == ' ' || *service == '\0';
-}
-
-} // namespace
-
-core::ServiceReply refuse(const rung_program& program, const core::ServiceRequest& request) noexcept {
-  const char* const service = request.service < program.service_count ? program.services[request.service] : "";
-  const bool reads = isOf(service, "windr");
-  if (!reads && !isOf(service, "windw")) return {.ticket = request.ticket, .state = RUNG_SERVICE_ERROR};
-  return {.ticket = request.ticket,
-          .state = RUNG_SERVICE_DONE,
-          .resultCount = reads ? 2u : 1u,
-          .results = {gsk::kWindowNotProvided}};
 }
 
 } // namespace rung::nc

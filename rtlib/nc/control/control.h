@@ -136,8 +136,15 @@ public:
   // After a scan, a slot or a slice.
   virtual void afterSlice(runtime::Instance& instance) { (void)instance; }
 
-  // No CNC is there to answer: see refuse().
-  bool respond(runtime::Instance& instance, const core::ServiceRequest& request, core::ServiceReply& reply) override;
+  // The answer if there is no CNC to give one, so that a program never waits for ever. Of an error NCT's MR and MW make
+  // execution code 1, and MACR, MACW, SCP and MOVCMND the flag FL_ER. Allocates nothing.
+  virtual core::ServiceReply refuse(const core::ServiceRequest& request) const noexcept {
+    return {.ticket = request.ticket, .state = RUNG_SERVICE_ERROR};
+  }
+  bool respond(runtime::Instance&, const core::ServiceRequest& request, core::ServiceReply& reply) override {
+    reply = refuse(request);
+    return true;
+  }
 
   // The place that a name of the program or of the NC's interface refers to for a reader, and for the NC or the machine
   // that writes it. Nothing when the name is unknown.
@@ -196,9 +203,9 @@ public:
   // Whether a CNC carries out the program's requests; initially yes.
   virtual void setServed(bool served) { (void)served; }
   // The service of requests that the control itself makes for the program, outside of its tasks: its number, which no
-  // program has, and its text as rung_program::services has it.
+  // program has, and what it is.
   static constexpr uint32_t kOwnService = 0x8000'0000;
-  virtual const char* ownService() const { return ""; }
+  virtual core::ServiceName ownService() const { return {}; }
 
   // The program's retained memory was there but could not be restored: called before the power-on.
   virtual void reportRetainedLost() {}
@@ -260,11 +267,5 @@ private:
   runtime::Instance* instance_;
   runtime::RetainedMemory memory_;
 };
-
-// The answer where no CNC is there to give one: a program must not wait for ever.
-
-// GSK's window requests end with code 6, "not provided" (man. l.8668-8676); all others with an error, of which NCT's MR
-// and MW make execution code 1 and MACR, MACW, SCP and MOVCMND the flag FL_ER. Allocates nothing.
-core::ServiceReply refuse(const rung_program& program, const core::ServiceRequest& request) noexcept;
 
 } // namespace rung::nc

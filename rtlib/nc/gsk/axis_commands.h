@@ -64,10 +64,7 @@ inline constexpr uint32_t kAxisData1At = 2;
 inline constexpr uint32_t kAxisData2At = 4;
 inline constexpr uint8_t kAxisCommandBits = 0x7F;
 
-// The request that hands a command to the host's CNC, as rung_program::services has it: the axis from 0, command and
-// data as in the block. It is answered when the axis has carried it out.
-inline constexpr const char* kAxisRequest = "AXLCTL axis command data-1 data-2";
-inline constexpr int64_t kAxisStop = -1; // as a command: the axis stops
+inline constexpr int64_t kAxisStop = -1; // as a command of ServiceKind::MoveAxis: the axis stops
 
 // Byte addresses. The seven bytes from `command` are a program block: EC and EMSBK, EIF0-15, EID0-31.
 struct AxisGroup {

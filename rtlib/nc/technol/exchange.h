@@ -1,5 +1,5 @@
 // How a TECHNOL program reports to its control which variables it exchanges with other modules and shows to screens
-// (man. ch. 10, 18.2, 27): two services that the control answers at once.
+// (man. ch. 10, 18.2, 27): Define and UpdateInput (services.h), which the control answers at once.
 #pragma once
 #include <cstdint>
 #include <string_view>
@@ -71,16 +71,12 @@ constexpr int64_t exchangeArgument(ExchangeKind kind, ExchangeType type, Exchang
          int64_t{count} << 24;
 }
 
-// Results: 1 where it is done; 1 where the configuration has a default value; its bits, in the variable's type.
-inline constexpr std::string_view kDefineService =
-    "@DEFINE what place min max id0 id1 id2 id3 id4 id5 id6 id7 id8 id9 id10 id11 -> done configured value";
+// Define gives 1 where it is done; 1 where the configuration has a default value; its bits, in the variable's type.
 inline constexpr uint32_t kDefineHead = 4; // words before the identifier, eight characters each
 inline constexpr uint32_t kDefineWords = RUNG_MAX_SERVICE_ARGS - kDefineHead;
 inline constexpr uint32_t kDefineBytes = kDefineWords * 8; // longest identifier
-
-// The connected value of one element of an input, converted to its type. Results: 1 where there is a connection; the
-// bits of the value.
-inline constexpr std::string_view kUpdateService = "@UPDATE_IN place -> found value";
+// UpdateInput gives the connected value of one element of an input, converted to its type: 1 where there is a
+// connection; the bits of the value.
 
 // Hooks of the schedule: what the control does between the modules.
 inline constexpr uint32_t kHookAfterInput = 1; // the block modules run there (inventory 12.2)

@@ -1,4 +1,4 @@
-// The services of devices.
+// The table of services.
 #include "rtlib/nc/technol/services.h"
 
 #include <algorithm>
@@ -10,71 +10,83 @@ namespace rung::nc::technol {
 
 namespace {
 
-constexpr bool kWaits = true;
+using enum ServiceKind;
+
 // "There is no such table, area, master" (inventory of the services, 2, 3, 12).
 constexpr int64_t kNone = 1;
-
-constexpr DeviceService polled(std::string_view name, std::string_view results) {
-  return {.name = name, .results = results, .waits = kWaits, .refused = {kNone}};
-}
+constexpr DeviceAnswer kPolled = {.waits = true, .refused = {kNone}};
+constexpr DeviceAnswer kOfArea = {.waits = true, .refused = {0, kNone}};
 
 constexpr DeviceService kServices[] = {
-    {.name = "CAN_SEND", .results = "DR", .refused = {1}},
-    {.name = "CAN_RECV", .results = "DR id rtr data:b", .unanswered = {2}, .refused = {2}},
-    {.name = "CAN_RECV_REQ", .results = "RLO DR"},
-    {.name = "CAN_RECV_DEL", .results = "RLO"},
-    {.name = "CAN_RECV_END", .results = "RLO"},
-    {.name = "CAN_SYSIO_READ", .results = "RLO DR", .refused = {1}},
-    {.name = "CAN_SYSIO_WRITE", .results = "RLO", .refused = {1}},
-    {.name = "CAN_AX_SEND", .results = "data:b", .lasts = true},
-    {.name = "ANALOG_PORT"},
-    {.name = "ANALOG", .results = "port out:f"},
-    {.name = "SPI_AX", .results = "done", .lasts = true},
-    {.name = "AX_SPI", .results = "port out:f"},
-    {.name = "SPI_MAIN"},
-    {.name = "ANALOG_SPI", .results = "port out:f"},
-    {.name = "REGUL_X"},
-    {.name = "REGUL_Y"},
-    {.name = "REGUL_Z"},
-    {.name = "REGUL_4"},
-    {.name = "REGUL_5"},
-    {.name = "REGUL_6"},
-    {.name = "POS_INIT"},
-    {.name = "POS_RESET"},
+    {{FetchBytes, "@DATA ticket part -> w0 w1 w2 w3 w4 w5 w6 w7 w8 w9 w10 w11 w12 w13 w14 w15"}, Device::Bytes},
+    {{Configuration,
+      "@CNF_GET kind part id0 id1 id2 id3 id4 id5 id6 id7 id8 id9 id10 id11 id12 id13 -> found length v0 v1 v2 v3 v4 "
+      "v5 v6 v7 v8 v9 v10 v11 v12 v13"}},
+    {{Define, "@DEFINE what place min max id0 id1 id2 id3 id4 id5 id6 id7 id8 id9 id10 id11 -> done configured value"}},
+    {{UpdateInput, "@UPDATE_IN place -> found value"}},
+    {{CanSend, "CAN_SEND can id rtr len data:b -> DR"}, Device::Can, {.refused = {1}}},
+    {{CanReceive, "CAN_RECV can -> DR id rtr data:b"}, Device::Can, {.unanswered = {2}, .refused = {2}}},
+    {{CanOrder, "CAN_RECV_REQ can objl objh idl idh proc pmsg:b -> RLO DR"}, Device::Can},
+    {{CanDeleteOrder, "CAN_RECV_DEL handle -> RLO"}, Device::Can},
+    {{CanEndOrder, "CAN_RECV_END handle -> RLO"}, Device::Can},
+    {{CanReadItem, "CAN_SYSIO_READ can group board item -> RLO DR"}, Device::Can, {.refused = {1}}},
+    {{CanWriteItem, "CAN_SYSIO_WRITE can group board item val -> RLO"}, Device::Can, {.refused = {1}}},
+    {{CanDrive, "CAN_AX_SEND axis data:b -> data:b"}, Device::Can, {.lasts = true}},
+    {{AnalogPort, "ANALOG_PORT port"}, Device::Axes},
+    {{Analog, "ANALOG val port -> port out:f"}, Device::Axes},
+    {{AnalogOfAxis, "ANALOG val axis spi -> port out:f"}, Device::Axes},
+    {{AnalogSpindle, "ANALOG_SPI val axis -> port out:f"}, Device::Axes},
+    {{ToSpindle, "AX_SPI axis spi -> port out:f"}, Device::Axes},
+    {{MainSpindle, "SPI_MAIN axis"}, Device::Axes},
+    {{ToAxis, "SPI_AX feed1 feed2 angle accel axis -> done"}, Device::Axes, {.lasts = true}},
+    {{RegulatorX, "REGUL_X set"}, Device::Axes},
+    {{RegulatorY, "REGUL_Y set"}, Device::Axes},
+    {{RegulatorZ, "REGUL_Z set"}, Device::Axes},
+    {{Regulator4, "REGUL_4 set"}, Device::Axes},
+    {{Regulator5, "REGUL_5 set"}, Device::Axes},
+    {{Regulator6, "REGUL_6 set"}, Device::Axes},
+    {{PositionInit, "POS_INIT axis space"}, Device::Axes},
+    {{PositionReset, "POS_RESET axis"}, Device::Axes},
     // Bits of the control record; not given: it stays (man. l.12101-12133).
-    {.name = "POS_MODE", .results = "control", .unanswered = {4}, .refused = {kNotGiven}},
+    {{PositionMode, "POS_MODE len accel axis -> control"}, Device::Axes, {.unanswered = {4}, .refused = {kNotGiven}}},
     // The two bytes of the record as a word; refused, bit ERR (man. l.12093).
-    {.name = "POS_CONTROL",
-     .results = "status control",
-     .unanswered = {kNotGiven, kNotGiven},
-     .refused = {0x0400, kNotGiven}},
-    {.name = "SA_READ", .results = "RLO DR Val:b", .waits = kWaits, .refused = {0, kNone}},
-    {.name = "SA_WRITE", .results = "RLO DR", .waits = kWaits, .refused = {0, kNone}},
-    polled("PLCT_GET_INT", "DR Val"),
-    polled("PLCT_GET_REAL", "DR Val:f"),
-    polled("PLCT_GET_STR", "DR Val:s"),
-    polled("PLCT_GET_BIN", "DR Val:b"),
-    polled("PLCT_SET_INT", "DR"),
-    polled("PLCT_SET_REAL", "DR"),
-    polled("PLCT_SET_STR", "DR"),
-    polled("PLCT_SET_BIN", "DR"),
-    polled("PLCT_COL_INDEX", "DR Val"),
-    polled("PLCT_COL_ID", "DR Poin:s"),
-    polled("PLCT_COL_TYPE", "DR Val"),
-    polled("PLCT_GET_SELLINE", "DR Val"),
-    polled("PLCT_SET_SELLINE", "DR"),
-    polled("PLCT_CHANGED", "DR Val"),
-    polled("PLCT_GET_LINESCOUNT", "DR Val"),
-    polled("ECAT_COE_READ", "DR Len Val:b"),
-    polled("ECAT_COE_WRITE", "DR Len"),
-    polled("ECAT_SOE_READ", "DR Len Val:b ElemFl"),
-    polled("ECAT_SOE_WRITE", "DR Len ElemFl"),
-    polled("ECAT_COMMAND", "DR Len Val:b"),
-    {.name = "COM_SEND", .results = "RLO", .refused = {1}},
-    {.name = "COM_SEND_STR", .results = "RLO", .refused = {1}},
-    {.name = "COM_RECV", .results = "RLO DR", .unanswered = {1}, .refused = {1}},
-    {.name = "COM_CONTROL", .results = "RLO DR", .refused = {1, 2}},
+    {{PositionControl, "POS_CONTROL feed mp axis -> status control"},
+     Device::Axes,
+     {.unanswered = {kNotGiven, kNotGiven}, .refused = {0x0400, kNotGiven}}},
+    {{AreaRead, "SA_READ SAIdx Offset Size -> RLO DR Val:b"}, Device::Areas, kOfArea},
+    {{AreaWrite, "SA_WRITE SAIdx Offset Size Val:b -> RLO DR"}, Device::Areas, kOfArea},
+    {{TableGetInt, "PLCT_GET_INT TabIdx Line Col -> DR Val"}, Device::Tables, kPolled},
+    {{TableGetReal, "PLCT_GET_REAL TabIdx Line Col -> DR Val:f"}, Device::Tables, kPolled},
+    {{TableGetText, "PLCT_GET_STR TabIdx Line Col -> DR Val:s"}, Device::Tables, kPolled},
+    {{TableGetBinary, "PLCT_GET_BIN TabIdx Line Col -> DR Val:b"}, Device::Tables, kPolled},
+    {{TableSetInt, "PLCT_SET_INT TabIdx Line Col Val -> DR"}, Device::Tables, kPolled},
+    {{TableSetReal, "PLCT_SET_REAL TabIdx Line Col Val:f -> DR"}, Device::Tables, kPolled},
+    {{TableSetText, "PLCT_SET_STR TabIdx Line Col Val:s -> DR"}, Device::Tables, kPolled},
+    {{TableSetBinary, "PLCT_SET_BIN TabIdx Line Col Val:b -> DR"}, Device::Tables, kPolled},
+    {{TableColumnIndex, "PLCT_COL_INDEX TabIdx ID:s -> DR Val"}, Device::Tables, kPolled},
+    {{TableColumnId, "PLCT_COL_ID TabIdx Poin -> DR Poin:s"}, Device::Tables, kPolled},
+    {{TableColumnType, "PLCT_COL_TYPE TabIdx Col -> DR Val"}, Device::Tables, kPolled},
+    {{TableSelectedLine, "PLCT_GET_SELLINE TabIdx -> DR Val"}, Device::Tables, kPolled},
+    {{TableSelect, "PLCT_SET_SELLINE TabIdx Val -> DR"}, Device::Tables, kPolled},
+    {{TableChanged, "PLCT_CHANGED TabIdx -> DR Val"}, Device::Tables, kPolled},
+    {{TableLineCount, "PLCT_GET_LINESCOUNT TabIdx -> DR Val"}, Device::Tables, kPolled},
+    {{EthercatReadObject, "ECAT_COE_READ Master Slave Index Subindex Len -> DR Len Val:b"}, Device::Ethercat, kPolled},
+    {{EthercatWriteObject, "ECAT_COE_WRITE Master Slave Index Subindex Val:b Len -> DR Len"},
+     Device::Ethercat,
+     kPolled},
+    {{EthercatReadIdn, "ECAT_SOE_READ Master Slave DrNo ElemFl IDN Len -> DR Len Val:b ElemFl"},
+     Device::Ethercat,
+     kPolled},
+    {{EthercatWriteIdn, "ECAT_SOE_WRITE Master Slave DrNo ElemFl IDN Val:b Len -> DR Len ElemFl"},
+     Device::Ethercat,
+     kPolled},
+    {{EthercatCommand, "ECAT_COMMAND Master Slave Cmd -> DR Len Val:b"}, Device::Ethercat, kPolled},
+    {{ComSend, "COM_SEND com val -> RLO"}, Device::Com, {.refused = {1}}},
+    {{ComSendText, "COM_SEND_STR com poin:b len -> RLO"}, Device::Com, {.refused = {1}}},
+    {{ComReceive, "COM_RECV com -> RLO DR"}, Device::Com, {.unanswered = {1}, .refused = {1}}},
+    {{ComControl, "COM_CONTROL com mode -> RLO DR"}, Device::Com, {.refused = {1, 2}}},
 };
+static_assert(isServiceTable(kServices, &DeviceService::service));
 
 } // namespace
 
@@ -93,9 +105,9 @@ std::optional<int64_t> deviceWord(std::string_view word) {
   return found ? found : numberIn(kSpindleWords, kFirstSpindleWord);
 }
 
-const DeviceService* findDeviceService(std::string_view signature) {
-  const std::string_view name = signature.substr(0, signature.find(' '));
-  const auto* found = std::ranges::find(kServices, name, &DeviceService::name);
+const DeviceService* findDeviceService(std::string_view mnemonic) {
+  const auto* found =
+      std::ranges::find(kServices, mnemonic, [](const DeviceService& device) { return device.service.name; });
   return found == std::end(kServices) ? nullptr : found;
 }
 

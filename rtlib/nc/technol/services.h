@@ -1,27 +1,87 @@
-// How a TECHNOL program asks the devices of its control (man. ch. 9, 11-13, 17-19, 23, 26): a service a mnemonic, whose
-// arguments are the operands that the instruction reads. The compiler writes the request, the control and the code that
-// answers for a device read it, scenarios name it.
+// The requests of a TECHNOL program to its control and to the control's devices (man. ch. 9-13, 16-19, 23, 26, 27). A
+// service of a device is a mnemonic, whose arguments are the operands that the instruction reads.
 //
 // A service that waits is polled in every run of the instruction until it is answered; all others are answered when
 // they are asked. Bytes that a program gives lie in its memory and are read when it asks; bytes that it gets are
-// fetched by kDataService once the answer is there, in the same run.
+// fetched by FetchBytes once the answer is there, in the same run.
 #pragma once
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <string_view>
 
+#include "rtlib/nc/service.h"
 #include "rung/program.h"
 
 namespace rung::nc {
 
 namespace technol {
 
-// What is known of a service besides its name. A name among `results` with ":f" after it is a real, with ":s" a text,
-// with ":b" bytes; of both the result is their number.
-struct DeviceService {
-  std::string_view name;    // the mnemonic
-  std::string_view results; // parted by blanks; "": none
+enum class ServiceKind : uint8_t {
+  Unknown,
+  // Of the control itself.
+  FetchBytes,
+  Configuration,
+  Define,
+  UpdateInput,
+  // Of devices.
+  CanSend,
+  CanReceive,
+  CanOrder,
+  CanDeleteOrder,
+  CanEndOrder,
+  CanReadItem,
+  CanWriteItem,
+  CanDrive,
+  AnalogPort,
+  Analog,       // of the port
+  AnalogOfAxis, // of a spindle
+  AnalogSpindle,
+  ToSpindle,
+  MainSpindle,
+  ToAxis,
+  RegulatorX, // and those of the five next axes
+  RegulatorY,
+  RegulatorZ,
+  Regulator4,
+  Regulator5,
+  Regulator6,
+  PositionInit,
+  PositionReset,
+  PositionMode,
+  PositionControl,
+  AreaRead,
+  AreaWrite,
+  TableGetInt,
+  TableGetReal,
+  TableGetText,
+  TableGetBinary,
+  TableSetInt,
+  TableSetReal,
+  TableSetText,
+  TableSetBinary,
+  TableColumnIndex,
+  TableColumnId,
+  TableColumnType,
+  TableSelectedLine,
+  TableSelect,
+  TableChanged,
+  TableLineCount,
+  EthercatReadObject,
+  EthercatWriteObject,
+  EthercatReadIdn,
+  EthercatWriteIdn,
+  EthercatCommand,
+  ComSend,
+  ComSendText,
+  ComReceive,
+  ComControl,
+};
+
+enum class Device : uint8_t { None, Bytes, Can, Axes, Areas, Tables, Ethercat, Com }; // Bytes: those of answers
+
+// What a service of a device is besides its arguments and results.
+struct DeviceAnswer {
   bool waits = false;
   // Answered later, though the program continues at once: by cells of the interface (man. l.7964, l.9491).
   bool lasts = false;
@@ -30,9 +90,23 @@ struct DeviceService {
   int64_t unanswered[2] = {};
   int64_t refused[2] = {};
 };
-std::span<const DeviceService> deviceServices();
-// By the name of a signature, "CAN_SEND can id -> DR"; null: another service.
-const DeviceService* findDeviceService(std::string_view signature);
+struct DeviceService {
+  ServiceRow service;
+  Device device = Device::None; // None: the control's own
+  DeviceAnswer answer = {};
+
+  constexpr ServiceKind kind() const { return static_cast<ServiceKind>(service.kind); }
+};
+std::span<const DeviceService> deviceServices(); // by their kinds, from 1
+inline const DeviceService& deviceService(ServiceKind kind) { return deviceServices()[static_cast<size_t>(kind) - 1]; }
+// Of a kind that a request has; Unknown is of none.
+inline Device deviceOf(ServiceKind kind) {
+  return kind == ServiceKind::Unknown ? Device::None : deviceService(kind).device;
+}
+// By rung_program::dialect and the kind of a request; null: it asks no device.
+const DeviceService* deviceServiceOf(std::string_view dialect, uint32_t kind);
+// The first of this name; null: there is none.
+const DeviceService* findDeviceService(std::string_view mnemonic);
 
 // Words among the operands, parted by blanks, and the number that a device gets for the first of them.
 inline constexpr std::string_view kLineCommandWords = "CLEAR RECEIVED STATE"; // of COM_CONTROL
@@ -65,24 +139,18 @@ constexpr ArgumentBytes bytesOfArgument(int64_t argument) {
 // the procedure, by which another program's is found.
 inline constexpr std::string_view kPacketTask = "CAN_RECV_REQ.";
 
-// The bytes that the answer to a ticket has brought, 128 of them a part, the first lowest in each word.
-inline constexpr std::string_view kDataService =
-    "@DATA ticket part -> w0 w1 w2 w3 w4 w5 w6 w7 w8 w9 w10 w11 w12 w13 w14 w15";
+// Of FetchBytes: the bytes that the answer to a ticket has brought, so many a part, the first lowest in each word.
 inline constexpr uint32_t kDataBytes = RUNG_MAX_SERVICE_ARGS * 8;
 
 } // namespace technol
 
-// How a TECHNOL program asks its control for the configuration and the constants of the machine (man. ch. 16): one
-// service that the control answers at once. A request names what is wanted and by which identifier; a text comes in
-// parts.
+// Configuration asks for the configuration and the constants of the machine (man. ch. 16); the control answers at once.
+// A request names what is wanted and by which identifier; a text comes in parts.
 
 enum class ConfigurationKind : uint8_t { Integer, Real, Text, Binary, Bit, Constant };
 
 // Arguments: kind, number of the part, identifier, eight characters a word, filled up with zeros.
 // Results: 1 where it was found, bytes of the whole text, then a value (the bits of a real) or the part of the text.
-inline constexpr std::string_view kConfigurationService =
-    "@CNF_GET kind part id0 id1 id2 id3 id4 id5 id6 id7 id8 id9 id10 id11 id12 id13 -> found length v0 v1 v2 v3 v4 v5 "
-    "v6 v7 v8 v9 v10 v11 v12 v13";
 inline constexpr uint32_t kConfigurationHead = 2; // words before the identifier and the value
 inline constexpr uint32_t kConfigurationWords = RUNG_MAX_SERVICE_ARGS - kConfigurationHead;
 inline constexpr uint32_t kConfigurationBytes = kConfigurationWords * 8; // longest identifier, and a part of a text

@@ -11,7 +11,7 @@
 
 namespace rung::sim::technol {
 
-using io::AxisOrder, io::DeviceCall;
+using io::DeviceCall, io::ServiceKind;
 
 namespace {
 
@@ -50,16 +50,12 @@ void toAxis(Axes& axes, DeviceCall& call) {
 
 } // namespace
 
-void answerAxis(Axes& axes, const AxisPlaces& places, AxisOrder order, DeviceCall& call) {
+void answerAxis(Axes& axes, const AxisPlaces& places, DeviceCall& call) {
   Target target(axes);
-  if (io::answerAnalog(target, order, call)) return;
-  if (io::answerPosition(target, places.cells(), order, call)) return;
-  switch (order) {
-  case AxisOrder::None: return;
-  case AxisOrder::ToAxis: return toAxis(axes, call);
-  default:
-    return axes.regul(static_cast<int64_t>(order) - static_cast<int64_t>(AxisOrder::RegulatorX) + 1, call.arg(0));
-  }
+  if (io::answerAnalog(target, call)) return;
+  if (io::answerPosition(target, places.cells(), call)) return;
+  if (call.kind() == ServiceKind::ToAxis) return toAxis(axes, call);
+  axes.regul(static_cast<int64_t>(call.kind()) - static_cast<int64_t>(ServiceKind::RegulatorX) + 1, call.arg(0));
 }
 
 // Cells of the axes.

@@ -39,7 +39,7 @@ private:
 // Instructions of spindles, servos and positioning units, answered by the axes of the simulated control (man. ch. 12,
 // 13.1, 19).
 
-void answerAxis(Axes& axes, const AxisPlaces& places, io::AxisOrder order, io::DeviceCall& call);
+void answerAxis(Axes& axes, const AxisPlaces& places, io::DeviceCall& call);
 
 // Cells of EtherCAT drives (man. 13.18, 13.19).
 

@@ -19,8 +19,8 @@ namespace {
 constexpr int64_t kUsPerTick = 1000;
 
 // Orders of packets are the control's own also where a scenario answers for all else (inventory of the services, 1.1).
-bool isPacketOrder(CanRequest order) {
-  return order == CanRequest::Order || order == CanRequest::DeleteOrder || order == CanRequest::EndOrder;
+bool isPacketOrder(ServiceKind kind) {
+  return kind == ServiceKind::CanOrder || kind == ServiceKind::CanDeleteOrder || kind == ServiceKind::CanEndOrder;
 }
 
 } // namespace
@@ -112,7 +112,6 @@ void SimulatedDevices::programChanged(runtime::Instance& instance, const rung_pr
 
 void SimulatedDevices::locate(runtime::Instance& instance) {
   const rung_program& program = instance.program();
-  services_ = deviceOrders(program);
   canPlaces_ = CanPlaces(program);
   if (!simulated_) return;
   axisPlaces_ = AxisPlaces(program);
@@ -123,51 +122,48 @@ void SimulatedDevices::locate(runtime::Instance& instance) {
   keyboardPlaces_ = KeyboardPlaces(program);
 }
 
-bool SimulatedDevices::answers(DeviceOrder order) const {
-  switch (order.device) {
-  case DeviceKind::None: return false;
-  case DeviceKind::Data:
-  case DeviceKind::ReadArea:
-  case DeviceKind::WriteArea: return true;
-  case DeviceKind::Tables: return hasTables_;
-  case DeviceKind::Can: return simulated_ || isPacketOrder(static_cast<CanRequest>(order.order));
+bool SimulatedDevices::answers(ServiceKind kind) const {
+  switch (nc::technol::deviceOf(kind)) {
+  case Device::None: return false;
+  case Device::Bytes:
+  case Device::Areas: return true;
+  case Device::Tables: return hasTables_;
+  case Device::Can: return simulated_ || isPacketOrder(kind);
   default: return simulated_;
   }
 }
 
 bool SimulatedDevices::respond(runtime::Instance& instance, const core::ServiceRequest& request,
                                core::ServiceReply& reply) {
-  if (request.service >= services_.size()) return false;
-  const DeviceOrder& service = services_[request.service];
-  const auto wrong = outOfRange(service, request);
-  if (!answers(service) && !wrong) return false;
+  const ServiceKind kind = kindOf(request);
+  const auto wrong = outOfRange(request);
+  if (!answers(kind) && !wrong) return false;
   DeviceCall call(instance, request, reply, bytes_);
   if (wrong) {
-    complaints_.add({nameOf(static_cast<AxisOrder>(service.order)), wrong->operand, wrong->value, {}});
-    answerNothing(static_cast<AxisOrder>(service.order), call);
+    complaints_.add({nc::technol::deviceService(kind).service.name, wrong->operand, wrong->value, {}});
+    answerNothing(call);
     return true;
   }
-  switch (service.device) {
-  case DeviceKind::None: return false;
-  case DeviceKind::Data: bytes_.fetch(request, reply); break;
-  case DeviceKind::Tables: answerTable(tables_, static_cast<TableOrder>(service.order), call); break;
-  case DeviceKind::ReadArea: readShared(areas_, call); break;
-  case DeviceKind::WriteArea: writeShared(areas_, call); break;
-  case DeviceKind::Axes: answerAxis(axes_, axisPlaces_, static_cast<AxisOrder>(service.order), call); break;
-  case DeviceKind::Com: answerCom(com_.find(comOf(call)), static_cast<ComOrder>(service.order), call); break;
-  case DeviceKind::Can:
-    canCalls_.answer(static_cast<CanRequest>(service.order), call);
-    complainOfDrive(static_cast<CanRequest>(service.order), call);
+  switch (nc::technol::deviceOf(kind)) {
+  case Device::None: return false;
+  case Device::Bytes: bytes_.fetch(request, reply); break;
+  case Device::Tables: answerTable(tables_, call); break;
+  case Device::Areas: answerArea(areas_, call); break;
+  case Device::Axes: answerAxis(axes_, axisPlaces_, call); break;
+  case Device::Com: answerCom(com_.find(comOf(call)), call); break;
+  case Device::Can:
+    canCalls_.answer(call);
+    complainOfDrive(call);
     break;
-  case DeviceKind::Ethercat: ethercatCalls_.begin(static_cast<EthercatOrder>(service.order), call); break;
+  case Device::Ethercat: ethercatCalls_.begin(call); break;
   }
   return true;
 }
 
 // The instruction has no result that would say so.
-void SimulatedDevices::complainOfDrive(CanRequest order, const DeviceCall& call) {
+void SimulatedDevices::complainOfDrive(const DeviceCall& call) {
   const bool exists = call.arg(0) >= 1 && call.arg(0) <= io::kMostDrives;
-  if (order == CanRequest::Drive && !exists) complaints_.add({"CAN_AX_SEND", "axis", call.arg(0), ""});
+  if (call.kind() == ServiceKind::CanDrive && !exists) complaints_.add({"CAN_AX_SEND", "axis", call.arg(0), ""});
 }
 
 std::vector<std::string> SimulatedDevices::problems() const {

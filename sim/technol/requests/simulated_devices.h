@@ -112,7 +112,7 @@ private:
   std::string bytesSent(uint32_t number, const EventKeys& keys, bool none);
   std::string packetSent(uint32_t channel, const EventKeys& keys, bool none);
 
-  bool answers(io::DeviceOrder order) const;
+  bool answers(io::ServiceKind kind) const;
   void locate(runtime::Instance& instance);
   void loadTables();
   void pass(runtime::Instance& instance, ModuleCells& cells, int64_t us);
@@ -135,7 +135,7 @@ private:
   void takeVirtualKeys(runtime::Instance& instance, const ModuleCells& cells);
   void tickAxes(runtime::Instance& instance, uint32_t ticks);
   void tickOthers(runtime::Instance& instance, ModuleCells& cells, uint32_t ticks);
-  void complainOfDrive(io::CanRequest order, const io::DeviceCall& call);
+  void complainOfDrive(const io::DeviceCall& call);
 
   bool simulated_ = false;
   bool hasTables_ = false;
@@ -152,7 +152,6 @@ private:
   Keyboards keyboards_;
 
   io::AnswerBytes bytes_;
-  std::vector<io::DeviceOrder> services_; // by the program's numbers
   AxisPlaces axisPlaces_;
   io::CanPlaces canPlaces_;
   io::StatePlaces statePlaces_;

@@ -3,6 +3,8 @@
 
 #include <cstring>
 
+#include "rtlib/nc/gsk/services.h"
+
 namespace rung::host::testing {
 namespace {
 
@@ -114,7 +116,7 @@ constexpr const char* kRoutines[] = {"MAIN"};
 constexpr const char* kFiles[] = {"main.pmc"};
 constexpr uint32_t kPartEnds[] = {RUNG_PC_DONE};
 constexpr const char* kFaults[] = {"dead-loop"};
-constexpr const char* kServices[] = {"windr"};
+constexpr const char* kServices[] = {nc::gsk::service(nc::gsk::ServiceKind::ReadWindow).text.data()};
 constexpr rung_message_text kTexts[] = {{7, 0, "Oil level low"}};
 constexpr rung_task kTasks8ms[] = {{"MAIN", 0, 8000, 1000, 0, 0, 0, 0, 0, 0, 1}};
 constexpr rung_task kTasks10ms[] = {{"MAIN", 0, 10000, 1000, 0, 0, 1, 0, 0, 0, 1}};

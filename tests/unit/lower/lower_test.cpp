@@ -12,9 +12,10 @@ using ir::OpCode;
 
 TEST(ModuleItems, OnceHoweverOftenAsked) {
   ir::Module module;
-  EXPECT_EQ(service(module, "A x ->").index, 0u);
-  EXPECT_EQ(service(module, "B ->").index, 1u);
-  EXPECT_EQ(service(module, "A x ->").index, 0u);
+  const nc::ServiceRow a(1, "A x ->"), other(2, "B ->");
+  EXPECT_EQ(service(module, a).index, 0u);
+  EXPECT_EQ(service(module, other).index, 1u);
+  EXPECT_EQ(service(module, a).index, 0u);
   EXPECT_EQ(module.services.size(), 2u);
   ConstantBytes constants(module);
   const ir::SpaceId bytes = constants.spaceOf("abc");

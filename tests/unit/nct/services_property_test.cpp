@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "rtlib/nc/control/control.h"
+#include "rtlib/nc/control/nct/nct_control.h"
 #include "rtlib/nc/nct/operand_block.h"
 #include "rtlib/nc/nct/service_functions.h"
 #include "tests/unit/nct/machines.h"
@@ -304,9 +304,9 @@ TEST(NctServices, WaitForRoomInTheQueue) {
 class Refusing final : public runtime::ScheduleHooks {
 public:
   bool respond(runtime::Instance& instance, const core::ServiceRequest& request, core::ServiceReply& reply) override {
-    reply = nc::refuse(instance.program(), request);
-    return true;
+    return control.respond(instance, request, reply);
   }
+  nc::NctControl control;
 };
 
 TEST(NctServices, EndWhereNobodyAnswers) {
@@ -322,7 +322,7 @@ TEST(NctServices, EndWhereNobodyAnswers) {
       const auto scan = [&] {
         machine.instance().scan();
         for (const core::ServiceRequest& request : takeAll(machine.instance()))
-          machine.instance().services().complete(nc::refuse(machine.instance().program(), request));
+          machine.instance().services().complete(hooks.control.refuse(request));
       };
       machine.setWord(7101, 3);
       machine.setReal(7200, 1.5);

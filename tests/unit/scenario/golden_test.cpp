@@ -42,7 +42,8 @@ std::string runOfTheLamp(const std::string& statements) {
 // A service, and in the second line a statement with its keys.
 std::string wrongKeys(const std::string& text) {
   const size_t end = text.find('\n');
-  const ServiceSignature service(text.substr(0, end));
+  const std::string signature = text.substr(0, end);
+  const ServiceSignature service(nc::ServiceRow(nc::kUnknownService, signature.c_str()));
   const Statement prepare = parse("t.scn", "program a\n" + text.substr(end + 1) + "\n").statements.at(1);
   return keyProblem(service, prepare.keys, prepare.results);
 }

@@ -4,17 +4,21 @@
 
 #include <bit>
 
+#include "rtlib/nc/gsk/services.h"
 #include "rtlib/nc/nct/scope_symbols.h"
+#include "rtlib/nc/nct/services.h"
 #include "tests/support/words.h"
 #include "tools/scenario/requests.h"
 
 namespace rung::scenario {
 namespace {
 
+using nc::nct::ServiceKind;
+
 Statement statement(const std::string& line) { return parse("t.scn", "program a\n" + line + "\n").statements.at(1); }
 
 TEST(ScenarioServices, ArgumentsGoByName) {
-  const ServiceSignature windr("WINDR function length -> end data");
+  const ServiceSignature windr(nc::gsk::service(nc::gsk::ServiceKind::ReadWindow));
   core::ServiceRequest request;
   request.argCount = 2;
   request.args[0] = 5;
@@ -34,12 +38,12 @@ TEST(ScenarioServices, ArgumentsGoByName) {
 }
 
 TEST(ScenarioServices, DataCompareModuloTheLength) {
-  const ServiceSignature windw("windw function length data -> end");
+  const ServiceSignature windw(nc::gsk::service(nc::gsk::ServiceKind::WriteWindow));
   core::ServiceRequest request;
-  request.argCount = 3;
+  request.argCount = 5;
   request.args[0] = 0x105;
   request.args[1] = 2;
-  request.args[2] = -2;
+  request.args[4] = -2;
   const auto difference = [&](const char* keys) {
     return requestDifference(windw, {.request = request}, "windw",
                              statement(std::string("expect_call windw ") + keys).keys);
@@ -58,7 +62,7 @@ TEST(ScenarioServices, DataCompareModuloTheLength) {
 }
 
 TEST(ScenarioServices, RealsTravelAsTheirBits) {
-  const ServiceSignature macw("MACW variable channel value:f ->");
+  const ServiceSignature macw(nc::nct::service(ServiceKind::WriteMacro));
   core::ServiceRequest request;
   request.argCount = 3;
   request.args[0] = 500;
@@ -71,7 +75,7 @@ TEST(ScenarioServices, RealsTravelAsTheirBits) {
   EXPECT_EQ(difference("value=3.0"), "");
   EXPECT_EQ(difference("value=3.5"), "MACW: value is 3, expected 3.5");
   EXPECT_FALSE(macw.takesNoAnswer());
-  const ServiceSignature macr("MACR variable channel -> value:f");
+  const ServiceSignature macr(nc::nct::service(ServiceKind::ReadMacro));
   EXPECT_EQ(answerOf(macr, {.ticket = 1}, statement("reply value=3").results).reply.results[0],
             std::bit_cast<int64_t>(3.0));
   EXPECT_EQ(answerOf(macr, {.ticket = 1}, statement("reply value=-0.5").results).reply.results[0],
@@ -79,14 +83,14 @@ TEST(ScenarioServices, RealsTravelAsTheirBits) {
 }
 
 TEST(ScenarioServices, WithoutAnArrowNoAnswerIsTaken) {
-  const ServiceSignature move("MOVCMND axis code speed:f distance:f");
+  const ServiceSignature move(nc::nct::service(ServiceKind::MoveAxis));
   EXPECT_TRUE(move.takesNoAnswer());
   EXPECT_GE(move.argument("Distance"), 0);
   EXPECT_EQ(move.result("distance"), -1);
 }
 
 TEST(ScenarioServices, QuantitiesOfScpGoByTheirNames) {
-  const ServiceSignature scp("SCP symbol p1 p2 -> value:f");
+  const ServiceSignature scp(nc::nct::service(ServiceKind::ReadScope));
   core::ServiceRequest request;
   request.argCount = 3;
   request.args[0] = *nc::nct::findScopeSymbol("ActPosAx");

@@ -46,7 +46,7 @@ public:
                          "POS_MODE len accel axis -> control",
                          "POS_CONTROL feed mp axis -> status control",
                          "SA_READ SAIdx Offset Size -> RLO DR Val:b",
-                         nc::technol::kDataService.data()};
+                         nc::technol::deviceService(nc::technol::ServiceKind::FetchBytes).service.text.data()};
     program_.addPacked("NCI", 1, nc::areaBytes(nc::technolSignals(), "I"), 0);
     program_.addTask("MAIN",
                      program_.addChunk([](uint8_t*, rung_ctx* ctx, uint32_t) { return rung::test::popChunk(ctx); }));

@@ -4,6 +4,7 @@
 
 #include "frontend/dialects/gsk/lower/lower.h"
 #include "frontend/lower/operations.h"
+#include "rtlib/nc/gsk/services.h"
 #include "rtlib/nc/gsk/window_functions.h"
 
 namespace rung::frontend::gsk {
@@ -115,9 +116,8 @@ ValueId WindowLowering::request(ValueId function, ValueId length) {
   std::vector<ValueId> args{raw(function), raw(length), raw(word(window::kWindowNumberAt)),
                             raw(word(window::kWindowAttributeAt))};
   if (writes()) args.push_back(dataToWrite(length));
-  return b_.serviceRequest(f_.service(writes() ? "windw function length number attribute data -> end"
-                                               : "windr function length number attribute -> end data"),
-                           args);
+  const auto kind = writes() ? nc::gsk::ServiceKind::WriteWindow : nc::gsk::ServiceKind::ReadWindow;
+  return b_.serviceRequest(f_.service(nc::gsk::service(kind)), args);
 }
 
 // A host that answers with an error, or not at all where it should have, does not provide the function.

@@ -10,6 +10,7 @@
 #include "frontend/lower/operations.h"
 #include "ir/core/builder.h"
 #include "ir/core/marks.h"
+#include "rtlib/nc/nct/services.h"
 
 namespace rung::frontend::nct {
 
@@ -54,8 +55,7 @@ public:
   // `given` may be null: the module is not compared with another.
   Shared(ir::Module& module, ir::RoutineId routine, ir::GivenNumbers* given)
       : module_(module), routine_(routine), given_(given) {}
-  // "NAME arguments -> results", see docs/scenario-format.md.
-  ir::ServiceId service(std::string_view signature) { return frontend::service(module_, signature); }
+  ir::ServiceId service(nc::nct::ServiceKind kind) { return frontend::service(module_, nc::nct::service(kind)); }
   // Words of this box alone, under its key: a hidden symbol, so that they are found again in a changed program. The
   // space is made when it is asked for first.
   SharedWords words(std::string_view space, uint32_t count, const std::string& key);

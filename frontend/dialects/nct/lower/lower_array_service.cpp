@@ -199,9 +199,9 @@ Step ArrayServiceLowering::ask(const WordRange& range, const Place& place, Value
   if (first_.valid()) b_.slotStore(first_, first);
   const ValueId args[] = {b_.sextOrTrunc(Type::I64, function), b_.sextOrTrunc(Type::I64, first),
                           box_.shared.number(b_, Type::I64, buffer_)};
-  const ir::ServiceId service = box_.shared.service(
-      access() == FunctionAccess::Write ? "MW function address block -> code" : "MR function address block -> code");
-  const ValueId ticket = b_.serviceRequest(service, args);
+  const auto kind =
+      access() == FunctionAccess::Write ? nc::nct::ServiceKind::WriteArray : nc::nct::ServiceKind::ReadArray;
+  const ValueId ticket = b_.serviceRequest(box_.shared.service(kind), args);
   b_.slotStore(ticket_, ticket);
   const ValueId queueFull = b_.eq(ticket, b_.i32(0));
   return {b_.bit(false), b_.select(queueFull, is(kIdle), is(kPending))};

@@ -53,7 +53,7 @@ ValueId lowerAxisCommand(Lowering& box) {
         const auto bits = [&](ValueId real) { return b.fToBits(real); };
         const ValueId args[] = {b.zextOrTrunc(Type::I64, axis), b.zextOrTrunc(Type::I64, code), bits(speed),
                                 bits(distance)};
-        const ValueId ticket = b.serviceRequest(box.shared.service("MOVCMND axis code speed:f distance:f"), args);
+        const ValueId ticket = b.serviceRequest(box.shared.service(nc::nct::ServiceKind::MoveAxis), args);
         const ValueId refused = b.eq(b.servicePoll(ticket), b.i32(RUNG_SERVICE_ERROR));
         memory.setFlag(kFlagEr, refused);
         return b.and_(b.ne(ticket, b.i32(0)), b.not_(refused));

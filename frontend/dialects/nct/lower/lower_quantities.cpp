@@ -16,6 +16,7 @@ using ir::Type;
 using ir::ValueId;
 using nc::nct::ScopeParameter;
 using nc::nct::ScopeSource;
+using nc::nct::ServiceKind;
 
 namespace {
 
@@ -139,8 +140,7 @@ ValueId lowerMacro(Lowering& box) {
   const auto ask = [&] {
     std::vector<ValueId> args{asArgument(b, variable), asArgument(b, channel)};
     if (writes) args.push_back(memory.loadDouble(place, Type::I64));
-    return b.serviceRequest(
-        box.shared.service(writes ? "MACW variable channel value:f ->" : "MACR variable channel -> value:f"), args);
+    return b.serviceRequest(box.shared.service(writes ? ServiceKind::WriteMacro : ServiceKind::ReadMacro), args);
   };
   const auto take = [&](ValueId ticket) {
     if (!writes) memory.storeDouble(place, asReal(b, b.serviceResult(ticket, 0)));
@@ -220,7 +220,7 @@ ValueId lowerScope(Lowering& box) {
   const auto ask = [&] {
     const ValueId args[] = {b.constant(Type::I64, box.operands[1].constant.integer), asArgument(b, param1),
                             asArgument(b, param2)};
-    return b.serviceRequest(box.shared.service("SCP symbol p1 p2 -> value:f"), args);
+    return b.serviceRequest(box.shared.service(ServiceKind::ReadScope), args);
   };
   const auto take = [&](ValueId ticket) { memory.storeDouble(place, asReal(b, b.serviceResult(ticket, 0))); };
   return inquire(box, inquiry, valid, [&] { return inquiry.run(ask, take); });

@@ -18,23 +18,11 @@ const nc::technol::DeviceService& serviceOf(std::string_view mnemonic) {
   return *service;
 }
 
-// Where a name is among blanks, with what follows its colon left out.
-uint32_t numberOf(std::string_view names, std::string_view wanted) {
-  uint32_t found = kNone;
-  forEachWord(names, [&](std::string_view word, int64_t number) {
-    if (word.substr(0, word.find(':')) == wanted) found = static_cast<uint32_t>(number);
-  });
-  RUNG_CHECK(found != kNone, "a result that the service does not have");
-  return found;
-}
-
 } // namespace
 
-DeviceRequest::DeviceRequest(Lowering& context)
-    : l_(context), service_(serviceOf(context.mnemonic())), signature_(service_.name) {}
+DeviceRequest::DeviceRequest(Lowering& context) : DeviceRequest(context, serviceOf(context.mnemonic())) {}
 
-ValueId DeviceRequest::add(std::string name, ValueId value) {
-  signature_ += ' ' + std::move(name);
+ValueId DeviceRequest::add(ValueId value) {
   args_.push_back(value);
   return value;
 }
@@ -56,12 +44,14 @@ ValueId DeviceRequest::addOperand(uint32_t number, const Operand& operand, Value
     default: return b.constant(Type::I64, operand.value);
     }
   };
-  return add(std::string(info.name), word());
+  RUNG_CHECK(device_.service.arguments[static_cast<uint32_t>(args_.size())].name == info.name,
+             "an operand at another place than in the service");
+  return add(word());
 }
 
 ValueId DeviceRequest::send() {
-  if (!service_.results.empty()) signature_.append(" -> ").append(service_.results);
-  const ValueId ticket = l_.b().serviceRequest(l_.emitter.service(signature_), args_);
+  RUNG_CHECK(args_.size() == device_.service.arguments.count(), "other arguments than the service has");
+  const ValueId ticket = l_.b().serviceRequest(l_.emitter.service(device_.kind()), args_);
   use(ticket);
   return ticket;
 }
@@ -82,9 +72,11 @@ ValueId DeviceRequest::answered() {
 ValueId DeviceRequest::result(std::string_view name) {
   ir::RungBuilder& b = l_.b();
   if (!executed_.valid()) executed_ = isExecuted(b, ticket_);
-  const uint32_t number = numberOf(service_.results, name);
-  const int64_t refused = number < std::size(service_.refused) ? service_.refused[number] : 0;
-  return b.select(executed_, b.serviceResult(ticket_, number), b.constant(Type::I64, refused));
+  const auto number = device_.service.results.find(name);
+  RUNG_CHECK(number.has_value(), "a result that the service does not have");
+  const auto& answers = device_.answer.refused;
+  const int64_t refused = *number < std::size(answers) ? answers[*number] : 0;
+  return b.select(executed_, b.serviceResult(ticket_, *number), b.constant(Type::I64, refused));
 }
 
 ValueId DeviceRequest::flag(std::string_view name) { return l_.b().ne(result(name), l_.b().constant(Type::I64, 0)); }
@@ -111,7 +103,7 @@ void fetchBytes(Emitter& emitter, ValueId ticket, const Area& to, ValueId count,
   ir::RungBuilder& b = emitter.b();
   const ValueId number = b.zextOrTrunc(Type::I64, ticket);
   putParts(b, to, count, most, {.bytes = nc::technol::kDataBytes, .firstWord = 0}, [&](ValueId part) {
-    return b.serviceRequest(emitter.service(nc::technol::kDataService),
+    return b.serviceRequest(emitter.service(nc::technol::ServiceKind::FetchBytes),
                             std::array{number, b.zextOrTrunc(Type::I64, part)});
   });
 }

@@ -19,16 +19,18 @@ enum class DataForm : uint8_t { None, Integer, Real, Text, Binary, Bytes };
 
 class DeviceRequest {
 public:
-  // Of the current statement.
+  // Of the current statement; the second one where its mnemonic has several services.
   explicit DeviceRequest(Lowering& context);
+  DeviceRequest(Lowering& context, nc::technol::ServiceKind kind)
+      : DeviceRequest(context, nc::technol::deviceService(kind)) {}
 
-  // Each gives the argument, i64.
-  ir::ValueId add(std::string name, ir::ValueId value);
+  // The next argument, i64. Gives it.
+  ir::ValueId add(ir::ValueId value);
   // An operand that is a number, a bit or a word; not given: nc::technol::kNotGiven. `guard` as for Memory::reach.
   ir::ValueId addOperand(uint32_t number, const Operand& operand, ir::ValueId guard = {});
   // Gives the ticket.
   ir::ValueId send();
-  // A result by its name as deviceServices() has it; what the table says where there was no answer.
+  // A result by its name; what the table says where there was no answer.
   ir::ValueId result(std::string_view name);
   ir::ValueId flag(std::string_view name); // as a bit
   ir::ValueId real(std::string_view name);
@@ -40,9 +42,10 @@ public:
   ir::ValueId forgotten() const { return forgotten_; }
 
 private:
+  DeviceRequest(Lowering& context, const nc::technol::DeviceService& device) : l_(context), device_(device) {}
+
   Lowering& l_;
-  const nc::technol::DeviceService& service_;
-  std::string signature_;
+  const nc::technol::DeviceService& device_;
   std::vector<ir::ValueId> args_;
   ir::ValueId ticket_;
   ir::ValueId executed_;

@@ -80,24 +80,23 @@ void DeviceTarget::require(DataForm form, ValueId guard) const {
   l_->emitter.protect(guard.valid() ? b.and_(guard, lacks) : lacks);
 }
 
-void DeviceTarget::addWord(DeviceRequest& request, std::string name) const {
-  request.add(std::move(name), l_->b().zextOrTrunc(Type::I64, loadByte(l_->b(), area_, l_->b().i32(0), Type::I16)));
+void DeviceTarget::addWord(DeviceRequest& request) const {
+  request.add(l_->b().zextOrTrunc(Type::I64, loadByte(l_->b(), area_, l_->b().i32(0), Type::I16)));
 }
 
-void DeviceTarget::addTo(DeviceRequest& request, const std::string& name, DataForm form, ValueId count) const {
+void DeviceTarget::addTo(DeviceRequest& request, DataForm form, ValueId count) const {
   ir::RungBuilder& b = l_->b();
   switch (form) {
   case DataForm::None: return;
   case DataForm::Integer: {
     const Type type = cellType();
-    request.add(name,
-                type == Type::None ? numberAt(kInteger) : b.sextOrTrunc(Type::I64, l_->memory.load(access_, type)));
+    request.add(type == Type::None ? numberAt(kInteger) : b.sextOrTrunc(Type::I64, l_->memory.load(access_, type)));
     return;
   }
-  case DataForm::Real: request.add(name + ":f", numberAt(kReal)); return;
-  case DataForm::Text: request.add(name + ":s", bytesArgument(l_->emitter, area_, count)); return;
+  case DataForm::Real: request.add(numberAt(kReal)); return;
+  case DataForm::Text: request.add(bytesArgument(l_->emitter, area_, count)); return;
   case DataForm::Binary:
-  case DataForm::Bytes: request.add(name + ":b", bytesArgument(l_->emitter, area_, count)); return;
+  case DataForm::Bytes: request.add(bytesArgument(l_->emitter, area_, count)); return;
   }
 }
 

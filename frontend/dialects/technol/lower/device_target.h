@@ -23,10 +23,10 @@ public:
   // Where fewer bytes than the form needs are there, the program stops; fixed places are checked before.
   void require(DataForm form, ir::ValueId guard) const;
 
-  // As an argument of this name; `count` of bytes, i32.
-  void addTo(DeviceRequest& request, const std::string& name, DataForm form, ir::ValueId count) const;
-  // The first word there as an argument.
-  void addWord(DeviceRequest& request, std::string name) const;
+  // As the next argument; `count` of bytes, i32.
+  void addTo(DeviceRequest& request, DataForm form, ir::ValueId count) const;
+  // The first word there as the next argument.
+  void addWord(DeviceRequest& request) const;
   // Becomes the result of this name.
   void take(DeviceRequest& request, ir::ValueId ticket, std::string_view name, DataForm form) const;
 

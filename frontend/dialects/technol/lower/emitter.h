@@ -9,6 +9,7 @@
 #include "frontend/dialects/technol/lower/routine_builder.h"
 #include "frontend/lower/module_items.h"
 #include "ir/core/marks.h"
+#include "rtlib/nc/technol/services.h"
 
 namespace rung::frontend::technol {
 
@@ -35,7 +36,9 @@ public:
   // Stores 0, in rungs of their own.
   void clearSlots(std::span<const ir::SlotId> slots);
   ir::FaultId fault(std::string_view text) { return frontend::fault(module_, text); }
-  ir::ServiceId service(std::string_view signature) { return frontend::service(module_, signature); }
+  ir::ServiceId service(nc::technol::ServiceKind kind) {
+    return frontend::service(module_, nc::technol::deviceService(kind).service);
+  }
   // A hidden space that holds the bytes.
   ir::SpaceId constantBytes(std::string_view bytes) { return constants_.spaceOf(bytes); }
   // A constant that is not part of what the program's author wrote: a line, the size or the number of a space.

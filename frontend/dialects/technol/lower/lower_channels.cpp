@@ -37,10 +37,10 @@ void lowerCanSend(Lowering& l, std::span<const Operand> o, int) {
   const ValueId count = b.select(b.ltU(length, most), length, most);
   DeviceRequest request(l);
   request.addOperand(0, o[0]);
-  request.add("id", b.and_(memberOf(b, packet, kId, Type::I16), b.constant(Type::I64, kIdBits)));
-  request.add("rtr", memberOf(b, packet, kRtr, Type::I8));
-  request.add("len", count);
-  request.add("data:b", bytesArgument(l.emitter, dataOf(b, packet), b.zextOrTrunc(Type::I32, count)));
+  request.add(b.and_(memberOf(b, packet, kId, Type::I16), b.constant(Type::I64, kIdBits)));
+  request.add(memberOf(b, packet, kRtr, Type::I8));
+  request.add(count);
+  request.add(bytesArgument(l.emitter, dataOf(b, packet), b.zextOrTrunc(Type::I32, count)));
   request.send();
   l.r().setDr(request.result("DR"));
 }
@@ -74,8 +74,8 @@ void lowerCanOrder(Lowering& l, std::span<const Operand> o, int) {
     request.addOperand(low, o[low]);
     request.addOperand(low + 1, o[low + 1].given() ? o[low + 1] : o[low]);
   }
-  request.add("proc", l.procedures.event(o[5].index));
-  request.add("pmsg:b", bytesArgument(l.emitter, areaOf(l.memory, o[6]), b.i32(kPacketBytes)));
+  request.add(l.procedures.event(o[5].index));
+  request.add(bytesArgument(l.emitter, areaOf(l.memory, o[6]), b.i32(kPacketBytes)));
   request.send();
   l.r().setRlo(request.flag("RLO"));
   l.r().setDr(request.result("DR"));
@@ -94,7 +94,7 @@ void lowerUnitRead(Lowering& l, std::span<const Operand> o, int) {
 void lowerUnitWrite(Lowering& l, std::span<const Operand> o, int) {
   DeviceRequest request(l);
   for (uint32_t i = 0; i < o.size(); ++i) request.addOperand(i, o[i]);
-  request.add("val", l.r().dr(Type::I64));
+  request.add(l.r().dr(Type::I64));
   request.send();
   l.r().setRlo(request.flag("RLO"));
 }
@@ -112,7 +112,7 @@ void lowerDriveSend(Lowering& l, std::span<const Operand> o, int) {
     setMember(b, packet, kLength, Type::I8, b.constant(Type::I64, kDataBytes));
     b.store(placeOf("CAN_AX_BUSY"), b.constant(Type::I8, 0xFF));
   });
-  request.add("data:b", bytesArgument(l.emitter, dataOf(b, packet), b.i32(kDataBytes)));
+  request.add(bytesArgument(l.emitter, dataOf(b, packet), b.i32(kDataBytes)));
   request.send();
 }
 
@@ -128,7 +128,7 @@ void lowerComSend(Lowering& l, std::span<const Operand> o, int) {
   if (o[1].given())
     request.addOperand(1, o[1]);
   else
-    request.add("val", l.b().zextOrTrunc(Type::I64, l.r().dr(Type::I8)));
+    request.add(l.b().zextOrTrunc(Type::I64, l.r().dr(Type::I8)));
   request.send();
   l.r().setRlo(request.flag("RLO"));
 }

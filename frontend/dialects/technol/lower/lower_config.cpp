@@ -31,7 +31,7 @@ ValueId request(Emitter& emitter, Kind kind, ValueId part, const Words& id) {
   args[0] = b.constant(Type::I64, static_cast<int64_t>(kind));
   args[1] = part;
   std::copy(id.begin(), id.end(), args.begin() + kHead);
-  return b.serviceRequest(emitter.service(nc::kConfigurationService), args);
+  return b.serviceRequest(emitter.service(nc::technol::ServiceKind::Configuration), args);
 }
 
 // ---- numbers and bits -----------------------------------------------------------------------------------------------

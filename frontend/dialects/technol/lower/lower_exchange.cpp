@@ -99,7 +99,7 @@ void takeElement(Emitter& emitter, const Operand& target, uint32_t offset) {
   ir::Place at = target.place;
   at.byte += offset;
   const ValueId place = emitter.address(Type::I64, nc::placeArgument(at.space.index, at.byte, at.bit), at);
-  const ValueId ticket = b.serviceRequest(emitter.service(nc::kUpdateService), std::array{place});
+  const ValueId ticket = b.serviceRequest(emitter.service(nc::technol::ServiceKind::UpdateInput), std::array{place});
   b.when(answersYes(b, ticket, 0), [&] { b.store(at, fromBits(b, b.serviceResult(ticket, 1), target.type)); });
 }
 
@@ -213,7 +213,7 @@ ValueId defineRequest(Memory& memory, std::span<const ValueId> head, const Opera
   std::vector<ValueId> args(head.begin(), head.end());
   const auto words = identifierWords(memory, id, nc::kDefineWords);
   args.insert(args.end(), words.begin(), words.end());
-  return memory.emitter().b().serviceRequest(memory.emitter().service(nc::kDefineService), args);
+  return memory.emitter().b().serviceRequest(memory.emitter().service(nc::technol::ServiceKind::Define), args);
 }
 
 ValueId answersYes(ir::RungBuilder& b, ValueId ticket, uint32_t result) {

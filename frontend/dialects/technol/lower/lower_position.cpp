@@ -76,7 +76,7 @@ void lowerPositionControl(Lowering& l, std::span<const Operand> o, int) {
   const ValueId allowed = o[2].given() ? l.memory.bit(o[2]) : b.bit(true);
   DeviceRequest request(l);
   request.addOperand(1, o[1]);
-  request.add("mp", b.zextOrTrunc(Type::I64, allowed));
+  request.add(b.zextOrTrunc(Type::I64, allowed));
   const ValueId axis = request.addOperand(3, o[3]);
   request.send();
   const ValueId word = request.result("status"), control = request.result("control");

@@ -45,12 +45,12 @@ void addArguments(Lowering& l, DeviceRequest& request, const Given& given, DataF
     }
     const DeviceTarget data(l, given.operands[i], guard);
     if (isWritten(info)) { // PLCT_COL_ID: the number of the column lies where its name will be
-      data.addWord(request, std::string(info.name));
+      data.addWord(request);
       continue;
     }
     data.require(form, guard);
     const ValueId count = form == DataForm::Bytes ? lengthOf(l, given, data, guard) : data.room();
-    data.addTo(request, std::string(info.name), form, count);
+    data.addTo(request, form, count);
   }
 }
 

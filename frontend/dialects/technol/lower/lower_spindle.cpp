@@ -27,7 +27,7 @@ void addValue(Lowering& l, DeviceRequest& request, const Operand& value) {
   if (value.given())
     request.addOperand(0, value);
   else
-    request.add("val", l.b().sextOrTrunc(Type::I64, l.r().dr(Type::I16)));
+    request.add(l.b().sextOrTrunc(Type::I64, l.r().dr(Type::I16)));
 }
 
 } // namespace
@@ -46,7 +46,8 @@ void lowerAnalogPort(Lowering& l, std::span<const Operand> o, int) {
 // nothing happens.
 void lowerAnalog(Lowering& l, std::span<const Operand> o, int) {
   ir::RungBuilder& b = l.b();
-  DeviceRequest request(l);
+  using enum nc::technol::ServiceKind;
+  DeviceRequest request(l, o[1].given() ? AnalogOfAxis : Analog);
   addValue(l, request, o[0]);
   if (o[1].given()) {
     request.addOperand(1, o[1]);
@@ -55,7 +56,7 @@ void lowerAnalog(Lowering& l, std::span<const Operand> o, int) {
     return storeOutput(b, request);
   }
   const ValueId port = b.zextOrTrunc(Type::I64, b.load(Type::I32, place(HostCell::AnalogPort)));
-  request.add("port", port);
+  request.add(port);
   b.when(b.ne(port, b.constant(Type::I64, 0)), [&] {
     request.send();
     storeOutput(b, request);

@@ -9,6 +9,7 @@
 #include "rtlib/core/bits.h"
 #include "rtlib/load/program_info.h"
 #include "rtlib/nc/gsk/signals.h"
+#include "rtlib/nc/gsk/window_functions.h"
 #include "rtlib/text/number.h"
 
 namespace rung::nc {
@@ -182,6 +183,17 @@ std::optional<runtime::Ref> GskControl::signal(const rung_program& program, std:
   const uint32_t bytes = elementBytes(found->type);
   if (bytes == 0) return std::nullopt;
   return runtime::intRef(space, found->byteOffset, bytes * 8);
+}
+
+core::ServiceReply GskControl::refuse(const core::ServiceRequest& request) const noexcept {
+  core::ServiceReply reply{.ticket = request.ticket, .state = RUNG_SERVICE_DONE, .results = {gsk::kWindowNotProvided}};
+  switch (static_cast<gsk::ServiceKind>(request.name.kind)) {
+  case gsk::ServiceKind::ReadWindow: reply.resultCount = 2; return reply;
+  case gsk::ServiceKind::WriteWindow: reply.resultCount = 1; return reply;
+  case gsk::ServiceKind::MoveAxis:
+  case gsk::ServiceKind::Unknown: break;
+  }
+  return Control::refuse(request);
 }
 
 } // namespace rung::nc

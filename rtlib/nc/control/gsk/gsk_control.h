@@ -7,6 +7,7 @@
 #include "rtlib/nc/control/control.h"
 #include "rtlib/nc/control/gsk/asked_axes.h"
 #include "rtlib/nc/control/gsk/gsk_functions.h"
+#include "rtlib/nc/gsk/services.h"
 
 namespace rung::nc {
 
@@ -42,7 +43,11 @@ public:
   void beforeSlice(runtime::Instance& instance) override {
     if (axes_.any() && io_) axes_.step(*io_, instance.services(), served_);
   }
-  const char* ownService() const override { return gsk::kAxisRequest; }
+  // Window functions end with code 6, "not provided" (man. l.8668-8676).
+  core::ServiceReply refuse(const core::ServiceRequest& request) const noexcept override;
+  core::ServiceName ownService() const override {
+    return {gsk::service(gsk::ServiceKind::MoveAxis).text.data(), static_cast<uint32_t>(gsk::ServiceKind::MoveAxis)};
+  }
   // The areas of the program that runs now; null before there is one.
   const gsk::SignalsIo* signals() const { return io_ ? &*io_ : nullptr; }
 

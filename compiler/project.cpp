@@ -206,7 +206,7 @@ private:
       else if (node.is_string())
         addSetting(key, text::stringOf(node), node);
       else if (node.is_number())
-        addSetting(key, text::shown(node), node);
+        addSetting(key, text::textOf(node), node);
       else
         wrong(node, key, "a text or a number", "");
     }

@@ -18,7 +18,7 @@ namespace rung::control {
 using nlohmann::json;
 
 namespace {
-constexpr uint32_t kPassesKept = 4096; // of a watch of all passes
+constexpr uint32_t kScansKept = 4096; // of a watch of all scans
 }
 
 // By name, as long as this exists.
@@ -36,11 +36,11 @@ struct Cells::Found {
 };
 
 struct Cells::Watching {
-  Watching(rung_instance* instance, const Found& found, bool everyPass)
-      : of(instance), cells(found.cells), all(everyPass), gone(found.cells.size()), values(found.cells.size()),
+  Watching(rung_instance* instance, const Found& found, bool everyScan)
+      : of(instance), cells(found.cells), all(everyScan), gone(found.cells.size()), values(found.cells.size()),
         sent(found.cells.size()) {
     for (const rung_cell_info& info : found.infos) types.push_back(info.type);
-    check(rung_watch_new(of, found.cells.data(), static_cast<uint32_t>(found.cells.size()), all ? kPassesKept : 0,
+    check(rung_watch_new(of, found.cells.data(), static_cast<uint32_t>(found.cells.size()), all ? kScansKept : 0,
                          &watch));
   }
   ~Watching() { rung_watch_free(watch); }
@@ -170,7 +170,7 @@ void Cells::sendValues(Sink& sink) {
   for (auto& [peer, watching] : watching_) {
     auto sample = sized<rung_sample>();
     if (watching->all) {
-      for (int i = 0; i < turn::kMostPasses; ++i) {
+      for (int i = 0; i < turn::kMostScans; ++i) {
         if (rung_watch_next(watching->watch, watching->values.data(), &sample) != RUNG_OK) break;
         sink.send(peer, watching->event(sample));
       }
@@ -243,7 +243,7 @@ std::string Cells::refuseWithoutEffect(const std::string& name) {
                     (share == Share::Part ? " has " + std::string(force.name) + ", which is forced to "
                      : name == force.name ? " is forced to "
                                           : " is forced as " + std::string(force.name) + " to ") +
-                    shown(force.type, force.value) + ": it stays so");
+                    textOf(force.type, force.value) + ": it stays so");
   std::string kept;
   for (const host::PlcHost::Feed& feed : plc_.host().feeds()) {
     const Share share = shareOf(feed.name, wanted);
@@ -267,7 +267,7 @@ json Cells::set(const Peer& peer, const json& request) {
   const rung_value value = fromJson(type, request["value"], name);
   const host::Command done =
       plc_.post({.kind = host::Command::Kind::Write, .cell = found.cells.front(), .value = value});
-  plc_.logChange(peer, "set " + name + " from " + shown(type, done.former) + " to " + shown(type, value));
+  plc_.logChange(peer, "set " + name + " from " + textOf(type, done.former) + " to " + textOf(type, value));
   json answer = {{"name", name}, {"former", toJson(type, done.former)}, {"value", toJson(type, value)}};
   if ((done.state.flags & RUNG_STATE_FAULTED) != 0)
     note = "a fault has stopped the program: only inputs that are set now survive the reset";

@@ -15,7 +15,7 @@ using nlohmann::json;
 namespace {
 
 constexpr size_t kMostChanges = 1000; // that a report lists
-constexpr uint32_t kMostShadowPasses = 100'000;
+constexpr uint32_t kMostShadowScans = 100'000;
 constexpr uint32_t kShadowRoom = 256; // runs of tasks that wait to be compared
 constexpr std::chrono::seconds kTakeOverTime(3);
 
@@ -96,7 +96,7 @@ json Changes::putInPlace(rung_replacement* replacement, const std::vector<rung_c
   forces_.refusePending(why);
   report["ended_forces"] = ended;
   report["stopped"] = (done.state.flags & RUNG_STATE_STOPPED) != 0; // by the operator, as the program before
-  if (plc_.host().running() && (done.state.flags & RUNG_STATE_STOPPED) == 0) waitForPass(done.state.passes);
+  if (plc_.host().running() && (done.state.flags & RUNG_STATE_STOPPED) == 0) waitForScan(done.state.scans);
   report["waits"] = !plc_.host().running(); // for a reset
   auto info = sized<rung_replacement_info>();
   check(rung_replacement_report(replacement, &info));
@@ -105,13 +105,13 @@ json Changes::putInPlace(rung_replacement* replacement, const std::vector<rung_c
 }
 
 // The first one after so many, or its fault: then it is known whether the new program can run at all.
-void Changes::waitForPass(uint64_t passes) {
+void Changes::waitForScan(uint64_t scans) {
   constexpr int64_t kMostNs = 300'000'000, kLookNs = 1'000'000;
   constexpr uint32_t kEnd = RUNG_STATE_FAULTED | RUNG_STATE_STOPPED;
   for (const int64_t end = plc_.host().clock().nowNs() + kMostNs; plc_.host().clock().nowNs() < end;
        plc_.host().clock().sleep(kLookNs)) {
     const std::optional<rung_state> now = plc_.state();
-    if (!now || (now->flags & kEnd) != 0 || now->passes != passes) return;
+    if (!now || (now->flags & kEnd) != 0 || now->scans != scans) return;
   }
 }
 
@@ -174,8 +174,8 @@ void Changes::endShadow() {
 }
 
 json Changes::shadow(const Peer& peer, const json& request) {
-  const auto passes = request.find("scans");
-  if (passes == request.end() || !passes->is_number_unsigned() || *passes == 0 || *passes > kMostShadowPasses)
+  const auto scans = request.find("scans");
+  if (scans == request.end() || !scans->is_number_unsigned() || *scans == 0 || *scans > kMostShadowScans)
     throw Refused("found no number \"scans\" from 1 to 100000 in the request, expected one");
   if (shadow_ != nullptr && shadowsFor_ != peer.number)
     throw Refused("another client is running a shadow; try again when it has ended");
@@ -184,12 +184,12 @@ json Changes::shadow(const Peer& peer, const json& request) {
   const NextProgram next = nextProgram(peer, request);
   endShadow();
   rung_shadow* made = nullptr;
-  check(rung_shadow_new(plc_.instance(), next.get().handle(), passes->get<uint32_t>(), kShadowRoom, &made));
+  check(rung_shadow_new(plc_.instance(), next.get().handle(), scans->get<uint32_t>(), kShadowRoom, &made));
   shadow_.reset(made);
   shadowsFor_ = peer.number;
   compared_ = nullptr;
   plc_.post({.kind = host::Command::Kind::Shadow, .shadow = made}, kTakeOverTime);
-  plc_.logChange(peer, "shadow " + next.text + " for " + std::to_string(passes->get<uint32_t>()) + " scans");
+  plc_.logChange(peer, "shadow " + next.text + " for " + std::to_string(scans->get<uint32_t>()) + " scans");
   return json::object();
 }
 

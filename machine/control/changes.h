@@ -45,7 +45,7 @@ private:
   NextProgram nextProgram(const Peer& peer, const nlohmann::json& request);
   nlohmann::json putInPlace(rung_replacement* replacement, const std::vector<rung_cell>& dead, nlohmann::json report,
                             const char* why);
-  void waitForPass(uint64_t passes);
+  void waitForScan(uint64_t scans);
   void endShadow();
   nlohmann::json shadowReport();
   void finishShadow(nlohmann::json report);

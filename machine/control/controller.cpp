@@ -70,8 +70,8 @@ const Controller::Request& Controller::requestOf(const json& request) const {
   if (found == std::end(kRequests)) throw Refused("found \"" + wanted + "\", expected a command of this protocol");
   if (found->permission && !plc_.host().map().permissions[static_cast<size_t>(*found->permission)]) {
     const std::string right(host::kRemoteNames[static_cast<size_t>(*found->permission)]);
-    throw Refused("\"" + right + "\" is not allowed here; for it the mapping file needs [rungctl] permissions = [\"" + right +
-                  "\"]");
+    throw Refused("\"" + right + "\" is not allowed here; for it the mapping file needs [rungctl] permissions = [\"" +
+                  right + "\"]");
   }
   const bool changes = found->permission && *found->permission != host::Remote::Serve;
   if (changes && plc_.host().ending()) throw Refused("the program is being switched off");

@@ -146,7 +146,7 @@ json Forces::force(const Peer& peer, const json& request) {
   return begin({.peer = peer,
                 .before = std::move(before),
                 .cells = std::move(cells),
-                .text = "force " + name + " to " + shown(type, value),
+                .text = "force " + name + " to " + textOf(type, value),
                 .answer = {{"name", name}, {"value", toJson(type, value)}},
                 .id = idOf(request)});
 }

@@ -59,7 +59,7 @@ json eventOf(uint32_t ticket, const host::Operation& o) {
       {"channel", o.channel}, {"number", o.number}, {"axis", o.axis}};
   if (o.write) event["value"] = o.value;
   if (o.quantity == host::Quantity::AxisMove) {
-    event["way"] = host::kWayNames[static_cast<size_t>(o.way)];
+    event["motion"] = host::kMotionNames[static_cast<size_t>(o.motion)];
     event["speed"] = o.speed;
     if (o.untilOver) event["until"] = "over";
   }

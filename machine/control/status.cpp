@@ -54,7 +54,7 @@ json Status::status(const Peer&, const json&) {
   out["powered_off"] = plc_.host().ended();
   if (!answer.ok()) return out;
   const uint32_t flags = look.state.flags;
-  out["scans"] = look.state.passes;
+  out["scans"] = look.state.scans;
   out["missed"] = look.state.missed;
   out["restarts"] = plc_.host().restarts();
   out["functions"] = jsonOf(look.functions);
@@ -183,7 +183,7 @@ json rowOf(const rung_profile& rung) {
 
 } // namespace
 
-// All rungs of the program's tables. Their counters are not those of one pass: the program continues meanwhile.
+// All rungs of the program's tables. Their counters are not those of one scan: the program continues meanwhile.
 std::vector<rung_profile> Status::counters() {
   std::vector<rung_profile> all;
   int32_t status = RUNG_OK;

@@ -6,7 +6,7 @@ namespace rung::control::turn {
 
 constexpr int kMostMessages = 64;    // that the program has shown
 constexpr int kMostServices = 64;    // requests of the program to a CNC
-constexpr int kMostPasses = 500;     // of each client that watches all of them
+constexpr int kMostScans = 500;      // of each client that watches all of them
 constexpr int kMostShadowRuns = 200; // that are compared
 
 } // namespace rung::control::turn

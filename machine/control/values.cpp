@@ -57,7 +57,7 @@ std::string joined(const std::vector<std::string>& texts, const char* between) {
 
 // ---- values of cells -----------------------------------------------------------------------------------------------
 
-std::string shown(uint32_t type, rung_value value) { return toJson(type, value).dump(); }
+std::string textOf(uint32_t type, rung_value value) { return toJson(type, value).dump(); }
 
 std::string typeName(uint32_t type) {
   switch (type) {

@@ -31,8 +31,8 @@ std::string joined(const std::vector<std::string>& texts, const char* between);
 nlohmann::json toJson(uint32_t type, rung_value value);
 // Throws Refused where it is none of the type; integers may have the sign of the cell, or none.
 rung_value fromJson(uint32_t type, const nlohmann::json& value, const std::string& name);
-std::string typeName(uint32_t type);                // "bit", "i16", "real"
-std::string shown(uint32_t type, rung_value value); // for people
+std::string typeName(uint32_t type);                 // "bit", "i16", "real"
+std::string textOf(uint32_t type, rung_value value); // for people
 
 std::string toBase64(std::string_view bytes);
 std::optional<std::string> fromBase64(std::string_view text); // nothing where it is none

@@ -66,7 +66,7 @@ bool isPosition(std::string_view name) { return name.starts_with(kPositions); }
 std::string inQuotes(std::string_view text) { return "\"" + std::string(text) + "\""; }
 
 // A constant as the file has it.
-std::string shown(const Entry& entry) {
+std::string textOf(const Entry& entry) {
   if (entry.type == PinType::Bit) return entry.value != 0 ? "true" : "false";
   if (entry.type != PinType::Float) return std::to_string(static_cast<int64_t>(entry.value));
   char text[32];
@@ -96,11 +96,11 @@ Mistake mistakeOf(Misfit misfit, const Place& place, const Entry& entry) {
   case Misfit::Bit:
     if (entry.bits != 0) return {"the bit " + pins, "a cell", "remove bits"};
     if (isConstant)
-      return {shown(entry) + " for a bit", "true or false", "write for example " + inQuotes(entry.name) + " = true"};
+      return {textOf(entry) + " for a bit", "true or false", "write for example " + inQuotes(entry.name) + " = true"};
     return {"the bit " + forType, "a cell", "write type = \"bit\""};
   case Misfit::Cell:
     if (isConstant)
-      return {shown(entry) + " for a cell", "a number", "write for example " + inQuotes(entry.name) + " = 1"};
+      return {textOf(entry) + " for a cell", "a number", "write for example " + inQuotes(entry.name) + " = 1"};
     return {"the cell " + forType, "a bit", typesOf(place, entry)};
   case Misfit::Narrow:
     return {"the cell of " + std::to_string(place.width()) + " bits " + pins, "a cell with as many bits",
@@ -341,7 +341,7 @@ private:
     const auto whole = [](double value) { return std::to_string(static_cast<int64_t>(value)); };
     const double below = std::clamp(std::floor(constant.value), -0x1p31, 0x1p32);
     fail(constant.at, constant.where,
-         {shown(constant), "an integer, which is what the cell of " + std::to_string(place.width()) + " bits holds",
+         {textOf(constant), "an integer, which is what the cell of " + std::to_string(place.width()) + " bits holds",
           "write " + whole(below) + " or " + whole(below + 1)});
     return false;
   }
@@ -356,7 +356,7 @@ private:
     if (value >= -half && value < end) return true;
     const auto text = [](double bound) { return std::to_string(static_cast<int64_t>(bound)); };
     fail(constant.at, constant.where,
-         {shown(constant),
+         {textOf(constant),
           text(-half) + " to " + text(end - 1) + ", what the cell of " + std::to_string(place.width()) + " bits holds" +
               (isReal ? " of a real number, which becomes an integer with a sign" : ""),
           "write such a value, or name a longer cell"});

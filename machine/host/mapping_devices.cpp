@@ -13,7 +13,7 @@ using Kind = DeviceSetting::Kind;
 // A setting of the configuration is a text, a number, or true and false for 1 and 0; nothing: it is none of these.
 std::optional<std::string> settingOf(const toml::node& node) {
   if (const auto truth = node.value_exact<bool>()) return *truth ? "1" : "0";
-  if (node.is_string() || node.is_number()) return node.is_string() ? text::stringOf(node) : text::shown(node);
+  if (node.is_string() || node.is_number()) return node.is_string() ? text::stringOf(node) : text::textOf(node);
   return std::nullopt;
 }
 

@@ -173,7 +173,7 @@ private:
       if (known != std::end(kRemoteNames))
         map.permissions[known - std::begin(kRemoteNames)] = true;
       else
-        fail(positionOf(element), "rungctl.permissions: found " + text::shown(element) + " in the list, expected " +
+        fail(positionOf(element), "rungctl.permissions: found " + text::textOf(element) + " in the list, expected " +
                                       std::string(kPermissions) +
                                       text::didYouMean(text::mostSimilar(text::stringOf(element), kRemoteNames)));
     }

@@ -35,7 +35,7 @@ struct Pin {
   std::string name;
   PinType type = PinType::Bit;
   Direction direction = Direction::In;
-  text::Position at;         // the first of these places
+  text::Position at;   // the first of these places
   double safe = 0;     // value while the program does not run: before its first scan, after a fault, at the end
   bool holds = false;  // keeps its last value instead
   bool ofHost = false; // read and written by the host itself, also while the program does not run
@@ -49,7 +49,7 @@ struct Link {
   // Not empty: pins for the bits of the cell from its lowest one on, `pin` is the first.
   std::vector<uint32_t> bits;
   std::optional<double> value; // of a parameter, at the start; without it, and for io pins, the value of the program
-  text::Position at;                 // of the name
+  text::Position at;           // of the name
 };
 
 // The name of a pin with other errors: it is looked up, too, so that all errors are reported at once.
@@ -195,8 +195,8 @@ struct File {
   std::vector<Protected> protectedCells;
   std::vector<Connection> connections;
   std::vector<DeviceSetting> devices;
-  std::vector<Edge> aborts;          // edges that end every function: reset, emergency stop
-  int64_t timeoutNs = 0;             // of a function; 0: none
+  std::vector<Edge> aborts;                // edges that end every function: reset, emergency stop
+  int64_t timeoutNs = 0;                   // of a function; 0: none
   std::optional<text::Position> highSpeed; // place of `high-speed = true`
 
   // "PATH:LINE:COLUMN: what"

@@ -38,7 +38,7 @@ std::vector<std::string> Reading::errors() const {
 }
 
 std::optional<Number> Reading::numberWithType(const toml::node& node) const {
-  Number number{.found = text::shown(node), .at = positionOf(node)};
+  Number number{.found = text::textOf(node), .at = positionOf(node)};
   if (const auto bit = node.value_exact<bool>()) {
     number.type = PinType::Bit;
     number.value = *bit ? 1 : 0;

@@ -408,7 +408,7 @@ CommandSlot::Outcome PlcHost::execute(Command& command) noexcept {
   }
   if (now == State::Stopped && (command.kind == Kind::Stop || command.kind == Kind::Start))
     return {RUNG_WRONG_STATE, "a fault has stopped the program: a reset restarts it"};
-  const int32_t status = obeyRunning(command);
+  const int32_t status = executeRunning(command);
   if (status == RUNG_OK || status == RUNG_EMPTY) return {status};
   const bool isOff = now == State::Stopped && (state().flags & RUNG_STATE_ON) == 0; // a restart has failed
   if (status == RUNG_FAULTED || isOff) return {status, "a fault has stopped the program: a reset restarts it"};
@@ -426,7 +426,7 @@ int32_t PlcHost::replace(Command& command) noexcept {
   return status;
 }
 
-int32_t PlcHost::obeyRunning(Command& command) noexcept {
+int32_t PlcHost::executeRunning(Command& command) noexcept {
   rung_instance* plc = plc_.handle();
   switch (command.kind) {
   case Command::Kind::State:

@@ -158,7 +158,7 @@ private:
   void readPins() noexcept;
   void writePins() noexcept;
   CommandSlot::Outcome execute(Command& command) noexcept;
-  int32_t obeyRunning(Command& command) noexcept;
+  int32_t executeRunning(Command& command) noexcept;
   int32_t replace(Command& command) noexcept;
   static void log(void* host, int32_t level, const char* text);
   static int32_t request(void* host, rung_instance* instance, const rung_request* request, rung_reply* reply);

@@ -41,7 +41,7 @@ inline constexpr std::string_view kQuantityNames[] = {"macro-variable", "tool-le
                                                       "tool-number",    "axis-move"}; // by Quantity
 
 // How an axis of the program moves, until the next motion or its reset.
-enum class Way : uint8_t {
+enum class MotionKind : uint8_t {
   To,    // a position in its coordinate system
   By,    // a distance
   At,    // a position in machine coordinates
@@ -50,18 +50,18 @@ enum class Way : uint8_t {
   Jog,   // continuously in the direction of `value`, 1 or -1; 0: by the program's signals
   Stop,  // stops; waiting motions are dropped
 };
-inline constexpr std::string_view kWayNames[] = {"to", "by", "at", "home", "dwell", "jog", "stop"}; // by Way
+inline constexpr std::string_view kMotionNames[] = {"to", "by", "at", "home", "dwell", "jog", "stop"}; // by MotionKind
 
 struct Operation {
   Quantity quantity = Quantity::MacroVariable;
   bool write = false;
   uint32_t channel = 0; // from 0
   uint32_t number = 0;
-  uint32_t axis = 0;      // of a work offset; of a motion: from 0 in the order of the program
-  double value = 0;       // to be written
-  Way way = Way::To;      // of a move
-  double speed = 0;       // of a move, per minute; 0: rapid
-  bool untilOver = false; // a motion is answered at its end, otherwise when it is accepted
+  uint32_t axis = 0;                  // of a work offset; of a motion: from 0 in the order of the program
+  double value = 0;                   // to be written
+  MotionKind motion = MotionKind::To; // of a move
+  double speed = 0;                   // of a move, per minute; 0: rapid
+  bool untilOver = false;             // a motion is answered at its end, otherwise when it is accepted
 };
 
 enum class Outcome : uint8_t {

@@ -125,27 +125,27 @@ std::optional<Operation> moveOf(const int64_t* args) noexcept {
                  .untilOver = true};
   const auto turns = static_cast<double>(static_cast<int16_t>(args[2]));
   switch (args[1]) {
-  case nc::gsk::kAxisStop: move.way = Way::Stop; break;
+  case nc::gsk::kAxisStop: move.motion = MotionKind::Stop; break;
   case nc::gsk::kAxisRapid:
-  case nc::gsk::kAxisFeed: move.way = Way::By; break;
-  case nc::gsk::kAxisMachineCoordinate: move.way = Way::At; break;
+  case nc::gsk::kAxisFeed: move.motion = MotionKind::By; break;
+  case nc::gsk::kAxisMachineCoordinate: move.motion = MotionKind::At; break;
   case nc::gsk::kAxisManualReturn: move.speed = 0; [[fallthrough]]; // parameter 1428 of the control
   case nc::gsk::kAxisReference1:
-    move.way = Way::Home;
+    move.motion = MotionKind::Home;
     move.value = 0;
     break;
   case nc::gsk::kAxisContinuous:
-    move.way = Way::Jog;
+    move.motion = MotionKind::Jog;
     move.value = (args[3] & 1) != 0 ? -1 : 1;
     break;
   case nc::gsk::kAxisSpeed:
-    move.way = Way::Jog;
+    move.motion = MotionKind::Jog;
     move.value = turns < 0 ? -1 : 1;
     move.speed = std::fabs(turns) * 360;
     break;
   default: return std::nullopt;
   }
-  const bool needsSpeed = move.way != Way::Stop && args[1] != nc::gsk::kAxisManualReturn;
+  const bool needsSpeed = move.motion != MotionKind::Stop && args[1] != nc::gsk::kAxisManualReturn;
   return needsSpeed && move.speed == 0 ? std::nullopt : std::optional(move);
 }
 

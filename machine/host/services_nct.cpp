@@ -14,37 +14,37 @@ namespace {
 
 using nc::nct::ServiceKind;
 
-// Without a way: no CNC offers the motion to its program.
+// Without a kind: no CNC offers the motion to its program.
 struct Motion {
-  std::optional<Way> way;
+  std::optional<MotionKind> kind;
   bool rapid = true;
 };
 constexpr bool kFeed = false;
-constexpr std::array<Motion, 15> kMotions = {{{Way::To},
-                                              {Way::By},
-                                              {Way::To, kFeed},
-                                              {Way::By, kFeed},
+constexpr std::array<Motion, 15> kMotions = {{{MotionKind::To},
+                                              {MotionKind::By},
+                                              {MotionKind::To, kFeed},
+                                              {MotionKind::By, kFeed},
                                               {},
                                               {},
-                                              {Way::At},
-                                              {Way::Home},
+                                              {MotionKind::At},
+                                              {MotionKind::Home},
                                               {},
                                               {},
                                               {},
-                                              {Way::Dwell},
+                                              {MotionKind::Dwell},
                                               {},
-                                              {Way::Jog, kFeed},
+                                              {MotionKind::Jog, kFeed},
                                               {}}}; // by the codes of axis_codes.h
 
 std::optional<Operation> moveOf(const int64_t* args) noexcept {
   const bool known = args[0] >= 0 && args[0] < nc::nct::kAxes && args[1] >= 0 && args[1] < std::ssize(kMotions);
   const Motion motion = known ? kMotions[static_cast<size_t>(args[1])] : Motion{};
-  if (!motion.way) return std::nullopt;
+  if (!motion.kind) return std::nullopt;
   return Operation{.quantity = Quantity::AxisMove,
                    .write = true,
                    .axis = static_cast<uint32_t>(args[0]),
-                   .value = *motion.way == Way::Jog ? 0 : std::bit_cast<double>(args[3]),
-                   .way = *motion.way,
+                   .value = *motion.kind == MotionKind::Jog ? 0 : std::bit_cast<double>(args[3]),
+                   .motion = *motion.kind,
                    .speed = motion.rapid ? 0 : std::bit_cast<double>(args[2])};
 }
 

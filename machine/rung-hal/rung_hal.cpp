@@ -318,7 +318,7 @@ void runStep(PlcInstance& c, Function function, long periodNs) {
   if (runs) hal::setU32(c.own(OwnPin::FunctionsLost), c.host->functions().lost());
   if (result != host::StepResult::Ran) return; // after a fault the instance is the service's
   const rung_state state = c.host->state();
-  hal::setU32(c.own(OwnPin::Scans), static_cast<uint32_t>(state.passes));
+  hal::setU32(c.own(OwnPin::Scans), static_cast<uint32_t>(state.scans));
   hal::setU32(c.own(OwnPin::Missed), static_cast<uint32_t>(state.missed));
 }
 

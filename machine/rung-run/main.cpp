@@ -190,9 +190,9 @@ bool namesDevices(const Options& options) {
 }
 
 // What the program has around it besides its pins; none: the control alone.
-host::PlcHost::NewInstance surroundingsOf(const Options& options, const Image& image, const host::File& map,
-                                          std::vector<std::string>& errors,
-                                          std::unique_ptr<rung_run::Simulation>& simulation, io::HostDevices& devices) {
+host::PlcHost::NewInstance newInstanceOf(const Options& options, const Image& image, const host::File& map,
+                                         std::vector<std::string>& errors,
+                                         std::unique_ptr<rung_run::Simulation>& simulation, io::HostDevices& devices) {
   if (options.simulate) {
     simulation = rung_run::loadSimulation(image.program().dialect, options.config);
     return [&simulation](const Image& of, const rung_instance_options& with) { return simulation->instance(of, with); };
@@ -232,7 +232,7 @@ int run(const Options& options) try {
   host::File map = host::loadMap(options.map, errors);
   std::unique_ptr<rung_run::Simulation> simulation;
   io::HostDevices devices;
-  const host::PlcHost::NewInstance newInstance = surroundingsOf(options, image, map, errors, simulation, devices);
+  const host::PlcHost::NewInstance newInstance = newInstanceOf(options, image, map, errors, simulation, devices);
   const bool hasMap = !map.paths.empty();
   std::unique_ptr<host::PlcHost> host;
   std::string problem; // of the machine

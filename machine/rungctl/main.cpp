@@ -196,7 +196,7 @@ void addRest(Client& client, const Words& words, rungctl::Trace& trace) {
   // 0 where no scan ends any more.
   const uint64_t newest = client.ask({{"do", "get"}, {"names", words.names}}).value("scan", uint64_t{0});
   const milliseconds patience(newest == 0 ? 0 : 2000);
-  while (newest == 0 || trace.lastPass() < newest) {
+  while (newest == 0 || trace.lastScan() < newest) {
     const std::optional<json> event = client.event(patience);
     if (!event) return;
     if (event->value("event", "") == "values") trace.add(*event);
@@ -225,8 +225,8 @@ int trace(Client& client, const Words& words) {
   const std::string problem = fill(client, words, trace);
   trace.end();
   if (!file.flush()) return fail("cannot write " + words.file, cli::kEnvironment);
-  print(words, {{"ok", true}, {"scans", trace.passes()}},
-        fmt::format("wrote {}: {} {}", words.file, trace.passes(), trace.passes() == 1 ? "scan" : "scans"));
+  print(words, {{"ok", true}, {"scans", trace.scans()}},
+        fmt::format("wrote {}: {} {}", words.file, trace.scans(), trace.scans() == 1 ? "scan" : "scans"));
   return problem.empty() ? int{cli::kOk} : fail(problem);
 }
 

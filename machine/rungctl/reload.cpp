@@ -15,8 +15,8 @@
 #include <thread>
 #include <vector>
 
-#include "machine/rung-compile/collect.h"
 #include "machine/control/values.h"
+#include "machine/rung-compile/collect.h"
 
 namespace rung::rungctl {
 
@@ -69,7 +69,7 @@ std::string stateOf(const json& report) {
 // The program runs beside the other one until it has been compared. "", or why it does not take over.
 std::string whatSpeaksAgainst(Client& client, const Words& words, const volatile int& stop, json request) {
   request["do"] = "shadow";
-  request["passes"] = words.shadow;
+  request["scans"] = words.shadow;
   asked(client, request);
   json report;
   do {

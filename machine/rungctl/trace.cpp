@@ -43,8 +43,8 @@ void Trace::add(const json& event) {
   const json& values = event.at("values");
   for (size_t i = 0; i < values_.size() && i < values.size(); ++i) values_[i] = valueOf(values[i]);
   vcd_.sample(event.value("us", int64_t{0}), values_, event.value("lost", uint64_t{0}));
-  ++passes_;
-  lastPass_ = event.value("scan", uint64_t{0});
+  ++scans_;
+  lastScan_ = event.value("scan", uint64_t{0});
 }
 
 } // namespace rung::rungctl

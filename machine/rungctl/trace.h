@@ -17,14 +17,14 @@ public:
   Trace(std::ostream& out, const std::string& program, const nlohmann::json& names);
   void add(const nlohmann::json& event);
   void end() { vcd_.end(); }
-  uint64_t passes() const { return passes_; }
-  uint64_t lastPass() const { return lastPass_; } // 0 before the first
+  uint64_t scans() const { return scans_; }
+  uint64_t lastScan() const { return lastScan_; } // 0 before the first
 
 private:
   runtime::VcdWriter vcd_;
   std::vector<runtime::TracedValue> values_;
-  uint64_t passes_ = 0;
-  uint64_t lastPass_ = 0;
+  uint64_t scans_ = 0;
+  uint64_t lastScan_ = 0;
 };
 
 } // namespace rung::rungctl

@@ -181,7 +181,7 @@ int32_t rung_forces_free(rung_forces* forces) {
     settleForces(*call);
   }
   release(handle);
-  instance.generations.letGo();
+  instance.generations.release();
   return RUNG_OK;
 }
 

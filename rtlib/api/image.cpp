@@ -51,7 +51,7 @@ Generation::~Generation() {
 std::shared_ptr<Generation> Generations::add(const Environment& environment, std::shared_ptr<const Image> image,
                                              std::shared_ptr<const runtime::CopyLists> lists) {
   const std::lock_guard lock(mutex_);
-  letGoLocked();
+  releaseLocked();
   auto made = std::make_shared<Generation>(*this, last_ + 1, std::move(image), std::move(lists));
   names.join(environment, made->cells);
   blocks.join(environment, made->blockPlan);
@@ -67,13 +67,13 @@ std::shared_ptr<Generation> Generations::running() {
   return *found;
 }
 
-void Generations::letGo() {
+void Generations::release() {
   const std::lock_guard lock(mutex_);
-  letGoLocked();
+  releaseLocked();
 }
 
 // One that may run again, a replacement holds.
-void Generations::letGoLocked() {
+void Generations::releaseLocked() {
   std::erase_if(all_, [this](const std::shared_ptr<Generation>& one) {
     return one.use_count() == 1 && !one->isReferredTo() && one.get() != now_.load(std::memory_order_acquire);
   });

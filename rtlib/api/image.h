@@ -88,7 +88,7 @@ public:
     const std::lock_guard lock(mutex_);
     see(now());
   }
-  void letGo();
+  void release();
 
   // Scan thread: the running generation, and the change to the next one, which the caller keeps alive.
   Generation& now() const noexcept { return *now_.load(std::memory_order_acquire); }
@@ -99,7 +99,7 @@ public:
   HostBlocks blocks;
 
 private:
-  void letGoLocked();
+  void releaseLocked();
 
   mutable std::mutex mutex_;
   uint32_t last_ = 0;
@@ -107,8 +107,8 @@ private:
   std::atomic<Generation*> now_{nullptr};
 };
 
-// The names and numbers of the services of an instance's programs. A waiting request refers to one of them, even if another program
-// runs by the time the request is taken, and the one that made it no longer exists.
+// The names and numbers of the services of an instance's programs. A waiting request refers to one of them, even if
+// another program runs by the time the request is taken, and the one that made it no longer exists.
 
 class ServiceNames {
 public:

@@ -119,7 +119,7 @@ int32_t powerOn(rung_instance& instance, nc::PowerOn kind) {
   settleForces(instance);
   instance.pace.restart();
   instance.functionChannels = 0;
-  instance.passes = 0;
+  instance.scans = 0;
   instance.passNs = instance.lastPassNs = instance.worstPassNs = 0;
   instance.on = instance.wasOn = true;
   instance.ending = false;
@@ -135,10 +135,10 @@ bool needsLastScans(rung_instance& instance) noexcept {
   if (!instance.ending) {
     const bool needs = !instance.running.faulted() && control.beginPowerOff(instance.running);
     instance.ending = true;
-    instance.lastPass = instance.passes + (needs ? nc::Control::kMostLastScans : 0);
+    instance.lastScan = instance.scans + (needs ? nc::Control::kMostLastScans : 0);
     takeMessages(instance);
   }
-  return instance.passes < instance.lastPass && !instance.running.faulted() && control.endsLater(instance.running);
+  return instance.scans < instance.lastScan && !instance.running.faulted() && control.endsLater(instance.running);
 }
 
 int32_t powerOff(rung_instance& instance) {

@@ -102,8 +102,8 @@ struct rung_instance {
   bool faultReported = false; // to the host's callback
   bool wasOn = false;         // its memory holds something to be retained
   bool ending = false;        // its power-off has begun
-  uint64_t lastPass = 0;      // and does not wait longer for the program than to that one
-  uint64_t passes = 0;
+  uint64_t lastScan = 0;      // and does not wait longer for the program than to that one
+  uint64_t scans = 0;
   int64_t passNs = 0;
   int64_t lastPassNs = 0;
   int64_t worstPassNs = 0;

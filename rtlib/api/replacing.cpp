@@ -61,9 +61,9 @@ using namespace rung;
 using namespace rung::api;
 
 struct rung_shadow {
-  rung_shadow(rung_instance& of, std::shared_ptr<const Image> next, uint32_t passes, uint32_t room)
+  rung_shadow(rung_instance& of, std::shared_ptr<const Image> next, uint32_t scans, uint32_t room)
       : instance(of), live(of.generations.running()), image(std::move(next)),
-        shadow(live->program(), {image->program, image->engine}, &nc::describe, passes, room) {}
+        shadow(live->program(), {image->program, image->engine}, &nc::describe, scans, room) {}
 
   uint32_t mark = kShadowMark;
   rung_instance& instance;
@@ -134,7 +134,7 @@ int32_t nextOf(const rung_instance& instance, const rung_replacement* replacemen
 
 int32_t failLater(const rung_instance& instance, runtime::ReplaceResult result,
                   const runtime::StateTransfer& transfer) noexcept {
-  if (result == runtime::ReplaceResult::WithinPass) return fail(RUNG_LATER, "the program is within a scan");
+  if (result == runtime::ReplaceResult::WithinScan) return fail(RUNG_LATER, "the program is within a scan");
   if (result == runtime::ReplaceResult::RequestsWait)
     return fail(RUNG_LATER, "a request waits for its answer, and the new program numbers its services otherwise");
   return fail(RUNG_LATER, "%s waits at an instruction that the new program does not have",
@@ -213,7 +213,7 @@ int32_t rung_replacement_free(rung_replacement* replacement) {
   if (handle == nullptr) return failHandle("a replacement");
   rung_instance& instance = handle->instance;
   release(handle);
-  instance.generations.letGo();
+  instance.generations.release();
   return RUNG_OK;
 }
 
@@ -278,20 +278,20 @@ int32_t rung_instance_replace(rung_instance* instance, rung_replacement* replace
   return failLater(*call, result, handle->replacement.transfer());
 }
 
-int32_t rung_shadow_new(rung_instance* instance, rung_image* image, uint32_t passes, uint32_t room,
+int32_t rung_shadow_new(rung_instance* instance, rung_image* image, uint32_t scans, uint32_t room,
                         rung_shadow** shadow) {
   rung_instance* handle = instanceOf(instance);
   if (handle == nullptr) return failHandle("an instance");
   const rung_image* next = checked(image, kImageMark);
   if (next == nullptr) return failHandle("an image");
   if (shadow == nullptr) return fail(RUNG_BAD_ARGUMENT, "the pointer that receives the shadow is null");
-  if (passes == 0 || passes > RUNG_MOST_SHADOW_PASSES || room == 0 || room > RUNG_MOST_SHADOW_ROOM)
+  if (scans == 0 || scans > RUNG_MOST_SHADOW_SCANS || room == 0 || room > RUNG_MOST_SHADOW_ROOM)
     return fail(RUNG_BAD_ARGUMENT, "a shadow runs for 1 to %u scans and has room for 1 to %u runs, not for %u and %u",
-                RUNG_MOST_SHADOW_PASSES, RUNG_MOST_SHADOW_ROOM, passes, room);
+                RUNG_MOST_SHADOW_SCANS, RUNG_MOST_SHADOW_ROOM, scans, room);
   if (const int32_t status = checkDialect(*handle, next->image->program); status != RUNG_OK) return status;
   if (const int32_t status = handle->structs.check(next->image->program); status != RUNG_OK) return status;
   return contained([&] {
-    auto made = std::make_unique<rung_shadow>(*handle, next->image, passes, room);
+    auto made = std::make_unique<rung_shadow>(*handle, next->image, scans, room);
     if (!made->shadow.problem().empty())
       return fail(RUNG_REFUSED, "the programs cannot run side by side: %s", made->shadow.problem().c_str());
     *shadow = made.release();
@@ -310,7 +310,7 @@ int32_t rung_shadow_free(rung_shadow* shadow) {
     endShadow(*call);
   }
   release(handle);
-  instance.generations.letGo();
+  instance.generations.release();
   return RUNG_OK;
 }
 

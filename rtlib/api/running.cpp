@@ -40,9 +40,9 @@ void sampleWatches(rung_instance& instance) noexcept {
   instance.watches.sample(instance);
 }
 
-void endPass(rung_instance& instance) noexcept {
+void endScan(rung_instance& instance) noexcept {
   takeChanges(instance);
-  ++instance.passes;
+  ++instance.scans;
   sampleWatches(instance);
   instance.lastPassNs = instance.passNs;
   instance.worstPassNs = std::max(instance.worstPassNs, instance.passNs);
@@ -75,7 +75,7 @@ void afterPart(rung_instance& instance) noexcept {
   }
   if (!instance.outputs.empty()) writeOutputs(instance);
   instance.now().blockPlan.write(running.block().data());
-  if (running.atListStart()) endPass(instance);
+  if (running.atListStart()) endScan(instance);
   if (sliceEnds) stepFunctions(instance);
 }
 
@@ -242,7 +242,7 @@ int32_t rung_instance_state(const rung_instance* instance, rung_state* state) {
                                       .due_us = running.sliceDelayUs(),
                                       .now_us = running.nowUs(),
                                       .wait_ns = call->pace.untilNextNs(),
-                                      .passes = call->passes,
+                                      .scans = call->scans,
                                       .missed = call->pace.missed(),
                                       .last_ns = call->lastPassNs,
                                       .worst_ns = call->worstPassNs,

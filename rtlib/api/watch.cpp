@@ -24,7 +24,7 @@ uint64_t wordOf(const rung_instance& instance, const core::Memory& memory, rung_
 
 void show(const uint64_t* head, rung_sample& sample) noexcept {
   sample.generation = static_cast<uint32_t>(head[0]);
-  sample.pass = head[1];
+  sample.scan = head[1];
   sample.now_us = static_cast<int64_t>(head[2]);
 }
 
@@ -51,7 +51,7 @@ void Watches::remove(rung_watch& watch) {
 
 void Watches::sampleEach(const rung_instance& instance, bool onlyNew) noexcept {
   const uint64_t broken = instance.running.faulted() ? 1 : 0; // the scan that the fault has ended
-  const SampleHead head{instance.running.generation(), instance.passes + broken,
+  const SampleHead head{instance.running.generation(), instance.scans + broken,
                         static_cast<uint64_t>(instance.running.nowUs())};
   sampling_.enter();
   for (const std::atomic<rung_watch*>& place : watches_)
@@ -76,7 +76,7 @@ rung_watch::~rung_watch() {
 
 void rung_watch::take(const rung_instance& from, const SampleHead& head) noexcept {
   scratch_[0] = head.generation;
-  scratch_[1] = head.pass;
+  scratch_[1] = head.scan;
   scratch_[2] = head.nowUs;
   const rung::core::Memory memory = from.running.memory();
   for (size_t i = 0; i < cells.size(); ++i) scratch_[kHeadWords + i] = wordOf(from, memory, cells[i]);
@@ -225,7 +225,7 @@ int32_t rung_trace_new(rung_watch* watch, const char* path, rung_trace** trace) 
   if (handle == nullptr) return failHandle("a watch");
   if (path == nullptr || trace == nullptr)
     return fail(RUNG_BAD_ARGUMENT, "a trace needs the name of a file, and a place for itself");
-  if (!handle->keepsPasses()) return fail(RUNG_BAD_ARGUMENT, "the watch keeps no scans: make it with a depth above 0");
+  if (!handle->keepsScans()) return fail(RUNG_BAD_ARGUMENT, "the watch keeps no scans: make it with a depth above 0");
   return contained([&] {
     auto made = std::make_unique<rung_trace>(*handle, path);
     if (!made->out) return fail(RUNG_FAILED, "%s cannot be written", path);

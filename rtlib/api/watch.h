@@ -1,4 +1,4 @@
-// Cells that other threads look at: what the scan thread leaves for them at the end of a pass, without waiting.
+// Cells that other threads look at: what the scan thread leaves for them at the end of a scan, without waiting.
 #pragma once
 #include <array>
 #include <atomic>
@@ -14,7 +14,7 @@ namespace rung::api {
 // What is known of a sample, beside its values.
 struct SampleHead {
   uint64_t generation = 0;
-  uint64_t pass = 0;
+  uint64_t scan = 0;
   uint64_t nowUs = 0;
 };
 
@@ -25,7 +25,7 @@ public:
   bool add(rung_watch& watch);
   void remove(rung_watch& watch); // the scan thread does not touch it any more
 
-  // Scan thread, at the end of a pass.
+  // Scan thread, at the end of a scan.
   void sample(const rung_instance& instance) noexcept {
     if (count_.load(std::memory_order_relaxed) != 0) sampleEach(instance, false);
   }
@@ -55,7 +55,7 @@ struct rung_watch {
   int32_t newest(rung_value* values, rung_sample& sample) const noexcept;
   int32_t next(rung_value* values, rung_sample& sample) noexcept;
 
-  bool keepsPasses() const noexcept { return depth_ != 0; }
+  bool keepsScans() const noexcept { return depth_ != 0; }
   bool isNew() const noexcept { return newest_.empty(); }
 
   uint32_t mark = rung::api::kWatchMark;
@@ -66,7 +66,7 @@ private:
   static constexpr size_t kHeadWords = 3;
   size_t words() const noexcept { return kHeadWords + cells.size(); }
 
-  std::vector<uint64_t> scratch_; // the scan thread's: head and values of this pass
+  std::vector<uint64_t> scratch_; // the scan thread's: head and values of this scan
   rung::core::Published newest_;
   // Samples that wait, of one writer and one reader.
   uint32_t depth_;

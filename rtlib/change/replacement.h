@@ -15,7 +15,7 @@ namespace rung::runtime {
 enum class ReplaceResult : uint8_t {
   Replaced,
   OtherProgram,   // the replacement was not made for the program that runs
-  WithinPass,     // within a scan: try again later
+  WithinScan,     // within a scan: try again later
   RequestsWait,   // service requests wait, and the new program numbers services differently: try again later
   MechanismWaits, // a mechanism waits at an instruction that the new program does not have: try again later
 };

@@ -44,9 +44,9 @@ bool hasWholeRuns(const rung_program& program, std::span<const rung_step> steps)
 
 // ---- before -------------------------------------------------------------------------------------------------------
 
-Shadow::Shadow(const rung_program& live, const Runnable& next, DescribePlace describe, uint32_t passes, uint32_t room)
+Shadow::Shadow(const rung_program& live, const Runnable& next, DescribePlace describe, uint32_t scans, uint32_t room)
     : live_(live), next_(next), transfer_(live, next.program), describe_(describe),
-      lengthUs_(static_cast<int64_t>(scanPeriodUs(live)) * passes), problem_(compareSchedules()), records_(room),
+      lengthUs_(static_cast<int64_t>(scanPeriodUs(live)) * scans), problem_(compareSchedules()), records_(room),
       ring_(room), runner_(next.program, next_.block.get(), ctx_, next_.parts.data(), next.engine) {
   ctx_.host = &api_;
   ctx_.host_data = this;
@@ -148,7 +148,7 @@ void Shadow::indexOutputs() {
 
 ReplaceResult Shadow::begin(Instance& live) noexcept {
   if (&live.program() != &live_ || recording_ != ShadowState::Prepared) return ReplaceResult::OtherProgram;
-  if (!live.atListStart()) return ReplaceResult::WithinPass;
+  if (!live.atListStart()) return ReplaceResult::WithinScan;
   const std::span<const uint8_t> block = std::as_const(live).block();
   if (transfer_.waiting(block.data()) != nullptr) return ReplaceResult::MechanismWaits;
   std::memcpy(start_.before.data(), block.data(), block.size());

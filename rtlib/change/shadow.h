@@ -63,9 +63,9 @@ struct ShadowDifference {
 
 class Shadow final : public TaskWatch {
 public:
-  // `live` and `next` are programs of one dialect, which outlive the shadow. The shadow ends after `passes` scans; it
+  // `live` and `next` are programs of one dialect, which outlive the shadow. The shadow ends after `scans` scans; it
   // has room for the records of `room` runs of tasks.
-  Shadow(const rung_program& live, const Runnable& next, DescribePlace describe, uint32_t passes, uint32_t room);
+  Shadow(const rung_program& live, const Runnable& next, DescribePlace describe, uint32_t scans, uint32_t room);
 
   // Why the two cannot run side by side; "" when they can.
   const std::string& problem() const { return problem_; }

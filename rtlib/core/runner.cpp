@@ -470,15 +470,15 @@ inline void Runner::doStep(const rung_step& step) noexcept {
   hold();
 }
 
-// The list of the scan under way, else that of the one that begins.
-std::span<const rung_step> Runner::realTimePass() const noexcept {
+// The steps of the current scan; between scans, those of the next one.
+std::span<const rung_step> Runner::realTimeSchedule() const noexcept {
   if (position_ != 0) return list_;
   if (program_->slice_count != 0) return {program_->slices, program_->slice_count};
   return {program_->scan, program_->scan_count};
 }
 
 // The same without waiting for the time of the steps.
-std::span<const rung_step> Runner::pass() noexcept {
+std::span<const rung_step> Runner::untimedSchedule() noexcept {
   if (position_ != 0) return list_;
   if (joined_.empty()) {
     joined_ = {program_->scan, program_->scan_count};
@@ -508,11 +508,11 @@ inline void Runner::walk(std::span<const rung_step> list, const Ends& ends) noex
 }
 
 void Runner::scan() noexcept {
-  walk(pass(), [](const rung_step&, const rung_step&) { return false; });
+  walk(untimedSchedule(), [](const rung_step&, const rung_step&) { return false; });
 }
 
 void Runner::slot() noexcept {
-  walk(pass(), [](const rung_step& step, const rung_step&) { return step.op == RUNG_STEP_SLOT; });
+  walk(untimedSchedule(), [](const rung_step& step, const rung_step&) { return step.op == RUNG_STEP_SLOT; });
 }
 
 void Runner::fast() noexcept {
@@ -524,13 +524,13 @@ void Runner::fast() noexcept {
 
 uint32_t Runner::sliceDelayUs() const noexcept {
   if (position_ == 0 && untimedPeriodUs_ != 0) return untimedPeriodUs_;
-  const std::span<const rung_step> list = realTimePass();
+  const std::span<const rung_step> list = realTimeSchedule();
   const bool waits = position_ < list.size() && list[position_].op == RUNG_STEP_ADVANCE;
   return waits ? list[position_].arg : 0;
 }
 
 void Runner::slice() noexcept {
-  walk(realTimePass(), [](const rung_step&, const rung_step& next) { return next.op == RUNG_STEP_ADVANCE; });
+  walk(realTimeSchedule(), [](const rung_step&, const rung_step& next) { return next.op == RUNG_STEP_ADVANCE; });
 }
 
 bool Runner::runsFast(const rung_step& step) const noexcept {
@@ -539,7 +539,7 @@ bool Runner::runsFast(const rung_step& step) const noexcept {
 
 bool Runner::fastAhead() const noexcept {
   if (withinSlice()) return false;
-  const std::span<const rung_step> list = realTimePass();
+  const std::span<const rung_step> list = realTimeSchedule();
   for (uint32_t i = position_; i < list.size(); ++i) {
     if (i > position_ && list[i].op == RUNG_STEP_ADVANCE) return false;
     if (runsFast(list[i])) return true;
@@ -548,7 +548,7 @@ bool Runner::fastAhead() const noexcept {
 }
 
 void Runner::sliceToFast() noexcept {
-  if (fastAhead()) walk(realTimePass(), [this](const rung_step& step, const rung_step&) { return runsFast(step); });
+  if (fastAhead()) walk(realTimeSchedule(), [this](const rung_step& step, const rung_step&) { return runsFast(step); });
 }
 
 } // namespace rung::core

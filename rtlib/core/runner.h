@@ -183,8 +183,8 @@ private:
   void stopOnFault(uint32_t task) noexcept;
   void clearSafes() noexcept;
   bool mayRun() const noexcept { return !faulted_ && !inTask_; }
-  std::span<const rung_step> realTimePass() const noexcept;
-  std::span<const rung_step> pass() noexcept;
+  std::span<const rung_step> realTimeSchedule() const noexcept;
+  std::span<const rung_step> untimedSchedule() noexcept;
   template <class Ends>
   void walk(std::span<const rung_step> list, const Ends& ends) noexcept;
   bool runsFast(const rung_step& step) const noexcept;

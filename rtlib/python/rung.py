@@ -65,7 +65,7 @@ Direction = _enum("Direction", "rung_direction", "RUNG_", "When a bound variable
 FunctionKind = _enum("FunctionKind", "rung_function_kind", "RUNG_FUNCTION_", "Functions of a part program; KEY: one of the "
                      "panel or the screen, which is pressed and released.")
 LogLevel = _enum("LogLevel", "rung_log_level", "RUNG_LOG_", "The first argument of a `log` callback.")
-StateFlags = _enum("StateFlags", "rung_state_flags", "RUNG_STATE_", "Of State.flags; AT_START: between two passes, UNSAVED: "
+StateFlags = _enum("StateFlags", "rung_state_flags", "RUNG_STATE_", "Of State.flags; AT_START: between two scans, UNSAVED: "
                    "the last try to write retained memory has failed.", enum.IntFlag)
 Type = _enum("Type", "rung_type", "RUNG_TYPE_", "Of cells and symbols.")
 SymbolFlags = _enum("SymbolFlags", "rung_symbol_flags", "RUNG_SYMBOL_", "Of Symbol.flags.", enum.IntFlag)
@@ -527,7 +527,7 @@ class Instance(_Closing):
             does after an exception.
         fault(plc): a fault has stopped the program, within a scan.
         log(level, text): what an operator should know, with its LogLevel.
-        measure: the times of passes are measured, for State.last_ns and .worst_ns.
+        measure: the times of scans are measured, for State.last_ns and .worst_ns.
         queue_requests: without `request`, all requests wait for next_request.
         save_at_once: what the program asks to be saved is on disk when a call returns; for a program that runs faster
             than its clock.
@@ -609,7 +609,7 @@ class Instance(_Closing):
         return self._ran(_library.rung_instance_slice)
 
     def scan(self, count=1):
-        """Runs the rest of a pass, and `count` - 1 more, as long as no fault stops them. Error: WRONG_STATE, the
+        """Runs the rest of a scan, and `count` - 1 more, as long as no fault stops them. Error: WRONG_STATE, the
         program is off."""
         return all(self._ran(_library.rung_instance_scan) for _ in range(_integer(count, 1, _NONE)))
 
@@ -891,14 +891,14 @@ class _Part(_Closing):
 
 
 class Watch(_Part):
-    """Names that other threads look at while the program runs: their values at the end of a pass, all of one pass.
+    """Names that other threads look at while the program runs: their values at the end of a scan, all of one scan.
 
     It ends by close, at the end of its `with`, or with its instance.
     """
 
     def __init__(self, plc, names, depth=0):
-        """Watches names, of an array its first element, from the end of this pass on; from any thread, where they were
-        read before. `depth`: how many passes are kept for samples, at most 1,000,000. Errors as of Instance.cell;
+        """Watches names, of an array its first element, from the end of this scan on; from any thread, where they were
+        read before. `depth`: how many scans are kept for samples, at most 1,000,000. Errors as of Instance.cell;
         WRONG_TYPE, a text; WRONG_STATE, there are 16 already; BAD_ARGUMENT."""
         self._names = list(names)
         self._cells = [plc.cell(name) for name in self._names]
@@ -906,12 +906,12 @@ class Watch(_Part):
                          len(self._cells), depth)
 
     def newest(self):
-        """(Sample, {name: value}) of the last pass that is over, or of the moment of a fault; None: none has ended
+        """(Sample, {name: value}) of the last scan that is over, or of the moment of a fault; None: none has ended
         since the watch began. A name that the program no longer has is 0. Any thread, and several at a time."""
         return self._sample(_library.rung_watch_newest)
 
     def samples(self):
-        """(Sample, {name: value}) of every pass that waits, one after the other. Any thread, one at a time."""
+        """(Sample, {name: value}) of every scan that waits, one after the other. Any thread, one at a time."""
         return iter(lambda: self._sample(_library.rung_watch_next), None)
 
     def _sample(self, function):
@@ -922,13 +922,13 @@ class Watch(_Part):
 
 
 class Trace(_Part):
-    """The passes of a Watch as a file for wave viewers: it takes them in the place of Watch.samples.
+    """The scans of a Watch as a file for wave viewers: it takes them in the place of Watch.samples.
 
     It ends by close, at the end of its `with`, or with its instance.
     """
 
     def __init__(self, watch, path):
-        """Begins a file (value change dump). Error: BAD_ARGUMENT, the watch keeps no passes; FAILED."""
+        """Begins a file (value change dump). Error: BAD_ARGUMENT, the watch keeps no scans; FAILED."""
         self._handle = _Handle("rung_trace_free")
         _call(_library.rung_trace_new, watch, path, byref(self._handle))
         self._plc, self._watch = watch._plc, watch
@@ -936,7 +936,7 @@ class Trace(_Part):
         self._plc._parts.insert(self._plc._parts.index(watch._handle), self._handle)
 
     def write(self):
-        """Writes all passes that wait. False: none waited. Error: FAILED."""
+        """Writes all scans that wait. False: none waited. Error: FAILED."""
         return _call(_library.rung_trace_write, self) != Status.EMPTY
 
 
@@ -980,10 +980,10 @@ class Shadow(_Part):
     It ends by close, at the end of its `with`, or with its instance.
     """
 
-    def __init__(self, plc, image, passes, room=64):
-        """For so many passes of the schedule, with room for so many runs of tasks that wait for `work`. Error: REFUSED,
+    def __init__(self, plc, image, scans, room=64):
+        """For so many scans of the schedule, with room for so many runs of tasks that wait for `work`. Error: REFUSED,
         a program of another dialect or schedule; BAD_ARGUMENT; OUT_OF_MEMORY."""
-        super().__init__(plc, "rung_shadow_free", _library.rung_shadow_new, image, _integer(passes, 0, _NONE),
+        super().__init__(plc, "rung_shadow_free", _library.rung_shadow_new, image, _integer(scans, 0, _NONE),
                          _integer(room, 0, _NONE))
 
     def work(self):

@@ -187,7 +187,7 @@ ReplaceResult Instance::replace(Replacement& replacement, OwnContents own) {
   const rung_program& former = program();
   if (&replacement.transfer().from() != &former) return ReplaceResult::OtherProgram;
   if (!faulted()) { // after a fault the next that comes is a power-on, for which nothing waits
-    if (!atListStart()) return ReplaceResult::WithinPass;
+    if (!atListStart()) return ReplaceResult::WithinScan;
     if (!servicesAgree(replacement.next())) return ReplaceResult::RequestsWait;
     if (replacement.transfer().waiting(loaded_.block.get()) != nullptr) return ReplaceResult::MechanismWaits;
   }

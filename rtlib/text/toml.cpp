@@ -61,7 +61,7 @@ toml::source_region regionAt(std::string_view text, size_t offset) {
 
 } // namespace
 
-std::string shown(const toml::node& node) {
+std::string textOf(const toml::node& node) {
   if (node.is_table()) return "a table";
   if (node.is_array()) return "a list";
   if (const auto text = node.value_exact<std::string>()) return "\"" + *text + "\"";

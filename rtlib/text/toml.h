@@ -17,7 +17,7 @@
 namespace rung::text {
 
 // A value as a file has it; of tables and lists the kind.
-std::string shown(const toml::node& node);
+std::string textOf(const toml::node& node);
 // "" where the value is not a text.
 std::string stringOf(const toml::node& node);
 // Integers, too; nothing where the value is not a finite number.
@@ -78,7 +78,7 @@ public:
   }
   // The value of a key is something else than expected.
   void wrong(const toml::node& node, std::string_view where, std::string_view expected, std::string_view example) {
-    wrong(node.source(), where, shown(node), expected, example);
+    wrong(node.source(), where, textOf(node), expected, example);
   }
   void wrong(const toml::source_region& at, std::string_view where, std::string found, std::string_view expected,
              std::string_view example);

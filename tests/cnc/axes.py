@@ -6,7 +6,7 @@ import hal
 import linuxcnc
 
 import drive
-from drive import at_rest, check, command, done, passes, pin, pins, state, wait
+from drive import at_rest, check, command, done, scans, pin, pins, state, wait
 
 HOME = 7       # of joint 3 in the INI file, mm
 FEED = 6000    # mm/min: 100 mm/s
@@ -31,7 +31,7 @@ def watch():
     """From now on the extremes of what the drive is told are kept."""
     for name in ("places", "speeds", "accelerations"):
         hal.set_p(f"{name}.reset", "1")
-    passes(5)
+    scans(5)
     for name in ("places", "speeds", "accelerations"):
         hal.set_p(f"{name}.reset", "0")
 
@@ -64,7 +64,7 @@ def homing():
     command.home(-1)
     wait("homed", lambda: state("homed")[:4] == (1, 1, 1, 1))
     pins(**{"table.homed": True})
-    passes(10)
+    scans(10)
     check(near(place(), HOME), f"the command is {place()}")
     least, most = extremes("places")
     check(near(least, most), f"the motor moved from {least} to {most}")
@@ -91,7 +91,7 @@ def held():
     wait("motion", lambda: place() > HOME - 19)
     put(allow=False)
     here = at_rest(place)
-    passes(10)
+    scans(10)
     check(place() == here and here < HOME + 30, f"it is not held at {here}, but at {place()}")
     put(allow=True, feed=FEED * UNITS)
     ends(arrived=True, failed=False)
@@ -109,7 +109,7 @@ def switched_off():
     command.state(linuxcnc.STATE_ON)
     done("machine on")
     pins(**{"table.enabled": True})
-    passes(10)
+    scans(10)
     check(near(place(), here), f"it jumped from {here} to {place()}")
     go(5000)
     ends(arrived=True, failed=False)

@@ -40,11 +40,11 @@ def again_until(what, act, condition):
     wait(what, tried)
 
 
-def passes(count, since=None):
+def scans(count, since=None):
     """Waits until the program has run as often, since it had run `since` times: the thread of a busy machine may sleep for
     longer than a key is held."""
     begin = pin("scans") if since is None else since
-    wait(f"{count} passes of the program", lambda: pin("scans") - begin >= count)
+    wait(f"{count} scans of the program", lambda: pin("scans") - begin >= count)
 
 
 def program_state():
@@ -60,7 +60,7 @@ def at_rest(place):
     """Where an axis is once it does not move any more."""
     while True:
         before = place()
-        passes(5)
+        scans(5)
         if abs(place() - before) < 1e-6:
             return before
 
@@ -144,7 +144,7 @@ def services_hang(place, stopped):
     stopped()
     os.kill(services, signal.SIGCONT)
     pins(serving=True)
-    passes(50)
+    scans(50)
     check(abs(place() - here) < 0.001, "the axis goes on by itself")
 
 
@@ -223,7 +223,7 @@ def counters():
     check(pin("functions-lost") == 0, "functions were lost")
     check(pin("scans") > 100, f"only {pin('scans')} scans")
     before = program_state()
-    passes(50)
+    scans(50)
     after = program_state()
     scans, took = (after[name] - before[name] for name in ("scans", "us"))
     check(scans >= 50 and abs(took - 8000 * scans) <= 8000, f"{scans} scans in {took} us, not one in 8 ms")

@@ -9,11 +9,11 @@ import traceback
 import hal
 import linuxcnc
 
-from drive import again_until, at_rest, change_in_motion, check, command, done, end_motion, operator, passes, pin, pins, polled, program_time, progress, rungctl, run, status, wait
+from drive import again_until, at_rest, change_in_motion, check, command, done, end_motion, operator, scans, pin, pins, polled, program_time, progress, rungctl, run, status, wait
 from patience import patience
 
-PRESS = 19  # passes of the program, of 8 ms, in which a key is held: LinuxCNC is to see it, too
-PASSES = 4  # in which it is up
+PRESS = 19  # scans of the program, of 8 ms, in which a key is held: LinuxCNC is to see it, too
+SCANS = 4  # in which it is up
 
 
 def put(name, value):
@@ -31,10 +31,10 @@ def press(*keys, count=PRESS, until=None):
     begin = pin("scans")
     for key in keys:
         put("key-" + key, 1)
-    passes(count, begin)
+    scans(count, begin)
     for key in keys:
         put("key-" + key, 0)
-    passes(PASSES)
+    scans(SCANS)
 
 
 def mode(key, wanted):
@@ -59,7 +59,7 @@ def switch_on():
     wait("e-stop is reset", lambda: polled().task_state == linuxcnc.STATE_ESTOP_RESET)
     signal("on-button", 1)
     wait("machine on", lambda: polled().task_state == linuxcnc.STATE_ON)
-    passes(PASSES)
+    scans(SCANS)
     signal("on-button", 0)
     pins(servo_ready=True, no_interlock=True)
 
@@ -94,7 +94,7 @@ def mode_meanwhile():
     rungctl("set", "LIFE_WISH", "true")
     mode("mdi", linuxcnc.MODE_MDI)
     wait("the answer", lambda: "false" in rungctl("get", "LIFE_WISH"))
-    passes(63)  # half a second, in which rung-services may go back to a mode
+    scans(63)  # half a second, in which rung-services may go back to a mode
     check(polled().task_mode == linuxcnc.MODE_MDI, "the mode of the key was undone")
 
 
@@ -133,7 +133,7 @@ def wheel():
     wait("seven steps of the wheel", lambda: abs(position(2) - before + 0.07) < 1e-6)
     mode("manual", linuxcnc.MODE_MANUAL)
     signal("wheel-counts", 0)
-    passes(25)
+    scans(25)
     check(abs(position(2) - before + 0.07) < 1e-6, "the wheel moves in another mode")
 
 
@@ -221,7 +221,7 @@ def part():
     wait("the cut", lambda: pin("spindle-cw") and pin("coolant-pump") and position(0) > 22)
     press("hold", until=lambda: pin("paused"))
     here = at_rest(lambda: position(0))
-    passes(25)
+    scans(25)
     check(abs(position(0) - here) < 0.01, "it moves while it is held")
     check(here < 59, "the cut was over before it was held")
     check(pin("user-out-0"), "M64")
@@ -261,7 +261,7 @@ def alarm():
     pins(no_block_lock=False, beacon_red=True)
     put("motors-ok", 1)
     signal("reset-key", 1)
-    passes(38)  # so that LinuxCNC, which it aborts as well, has seen it
+    scans(38)  # so that LinuxCNC, which it aborts as well, has seen it
     pins(no_block_lock=True, beacon_red=False)
     wait("LinuxCNC has given up", lambda: polled().interp_state == linuxcnc.INTERP_IDLE)
     signal("reset-key", 0)
@@ -302,7 +302,7 @@ def emergency_stop():
     pins(enable=False, spindle_cw=False)
     wait("e-stop", lambda: polled().task_state == linuxcnc.STATE_ESTOP)
     signal("estop-button", 0)
-    passes(25)
+    scans(25)
     switch_on()
     mode("mdi", linuxcnc.MODE_MDI)
     mdi("M3 S500")

@@ -7,7 +7,7 @@ import hal
 import linuxcnc
 
 import drive
-from drive import at_rest, change_in_motion, check, command, done, end_motion, errors, idle, is_state, mdi, operator, passes, pin, pins, progress, rungctl, set_mode, state, wait
+from drive import at_rest, change_in_motion, check, command, done, end_motion, errors, idle, is_state, mdi, operator, scans, pin, pins, progress, rungctl, set_mode, state, wait
 from panel import connect, panel, press, put, stopped_homing
 
 # What the simulated machine and the panel have as signals: driven by pins of this component.
@@ -81,9 +81,9 @@ def by_hand():
     put("key-x-minus", True)
     wait("x jogs", lambda: position("x") < -0.2)
     put("key-x-minus", False)
-    passes(10)
+    scans(10)
     stood = at_rest(lambda: position("x"))
-    passes(10)
+    scans(10)
     check(near(position("x"), stood, 0.001), "x did not stop")
     mode("step")
     press("key-step-1000")
@@ -105,7 +105,7 @@ def by_hand():
     put("door", False)
     pins(hold=True, wheel_axis=0)
     panel["wheel-counts"] = 7
-    passes(10)
+    scans(10)
     check(near(position("x"), before + 0.2), "x moved with an open door")
     panel["wheel-counts"] = -3
     put("door", True)
@@ -200,7 +200,7 @@ def counted():
     mdi("M230")
     check(rungctl("get", "TOTAL") == f"TOTAL = {before + 1}\n", "the workpiece was not counted")
     wait("the log", lambda: f"Workpieces: {before + 1}" in rungctl("messages"))
-    passes(25)  # in which rung-operator may say something
+    scans(25)  # in which rung-operator may say something
     told = errors.poll()
     check(told is None, f"the operator was told {told}")
 
@@ -293,7 +293,7 @@ def alarm():
     command.mdi("G0 X-20")
     operator("Spindle start refused: chuck, door, readiness")
     before = position("x")
-    passes(30)
+    scans(30)
     check(near(position("x"), before), "x moved in spite of the fault")
     press("key-reset")
     idle()

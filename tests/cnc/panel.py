@@ -3,10 +3,10 @@ import functools
 
 import hal
 
-from drive import again_until, at_rest, check, passes, pin, program_state, wait
+from drive import again_until, at_rest, check, scans, pin, program_state, wait
 
 PRESS_US = 80_000  # of the program's time, in which a key is down: LinuxCNC is to see it, too
-PASSES = 4  # of the program in which it is, at least
+SCANS = 4  # of the program in which it is, at least
 
 panel = hal.component("panel")
 driven = set()
@@ -58,6 +58,6 @@ def press(key, until=None):
         return again_until(f"what {key} is pressed for", lambda: press(key), until)
     begin = pin("scans")
     put(key, True)
-    passes(max(PASSES, PRESS_US // period_us()), begin)
+    scans(max(SCANS, PRESS_US // period_us()), begin)
     put(key, False)
-    passes(1)
+    scans(1)

@@ -10,7 +10,7 @@ import hal
 import linuxcnc
 
 import drive
-from drive import check, command, done, mdi, passes, pin, pins, process, set_mode, state, wait
+from drive import check, command, done, mdi, scans, pin, pins, process, set_mode, state, wait
 
 RAPID, FEED, FEED_PER_TURN, DWELL, CONTINUOUS, REFERENCE_1, REFERENCE_2 = 0, 1, 2, 4, 6, 7, 8
 SPEED, AUXILIARY, MACHINE = 16, 18, 32
@@ -78,7 +78,7 @@ def held():
     put(pause=True)
     pins(moving=False, selected=True, distributed=False)
     here = drive.at_rest(table)
-    passes(10)
+    scans(10)
     check(near(table(), here), "the axis moves while it is held")
     check(here > 0.1, "it has come to its end before it was held")
     put(pause=False)
@@ -94,7 +94,7 @@ def continuous():
     wait("faster motion", lambda: hal.get_value("table.current-vel") < -7)
     clear()
     here = table()
-    passes(10)
+    scans(10)
     check(near(table(), here), "the axis moves after ECLR")
     order(SPEED, 1)  # 360 degrees a minute
     wait("the other direction", lambda: table() > here + 0.5)
@@ -140,7 +140,7 @@ def machine_off():
     pins(alarm=True)
     here = drive.at_rest(table)
     drive.switch_on()
-    passes(50)
+    scans(50)
     check(near(table(), here), "the axis goes on by itself")
     go_back()
 
@@ -158,7 +158,7 @@ def faulted():
     put(reset=False)
     here = drive.at_rest(table)
     drive.switch_on()
-    passes(50)
+    scans(50)
     check(near(table(), here), "the axis goes on by itself")
     go_back()
 
@@ -246,7 +246,7 @@ def start_services(*words):
 
 def it_serves_again(here):
     pins(serving=True)
-    passes(50)
+    scans(50)
     check(near(table(), here), f"the axis has moved by itself, from {here} to {table()}")
     go_back()
 
@@ -255,7 +255,7 @@ def started_again():
     """Without its lines nothing is served, whatever the signal has kept; with them the axis stays where it is."""
     here = end_services(signal.SIGTERM)
     start_services()
-    passes(150)
+    scans(150)
     check(not pin("serving") and near(table(), here), "a target that nobody has set moves the axis")
     for line in NETS.format("rung-services.axis-4").splitlines():
         subprocess.run(["halcmd", *line.split()], check=True)
@@ -279,7 +279,7 @@ def task_killed():
     os.kill(process("milltask"), signal.SIGKILL)
     pins(serving=False)
     here = drive.at_rest(table)
-    passes(50)
+    scans(50)
     check(near(table(), here), "the axis goes on by itself")
     check(not pin("in-place") and not pin("distributed"), "an axis that nobody serves is said to stand")
 

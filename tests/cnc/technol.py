@@ -6,7 +6,7 @@ import hal
 import linuxcnc
 
 import drive
-from drive import (again_until, at_rest, change_in_motion, check, command, done, end_motion, errors, idle, is_state, mdi, operator, passes, pin, pins,
+from drive import (again_until, at_rest, change_in_motion, check, command, done, end_motion, errors, idle, is_state, mdi, operator, scans, pin, pins,
                    program_time, progress, rungctl, state, wait)
 from panel import connect, press, put, stopped_homing
 
@@ -70,7 +70,7 @@ def by_hand():
     wait("x jogs", lambda: position("x") < -1)
     pins(x_moves=True, x_jogs_minus=True)
     put("key-door", True)  # refused while an axis moves
-    passes(5)
+    scans(5)
     put("key-door", False)
     check(not pin("door-free"), "the door opened beside a moving axis")
     put("panel-x-minus", False)
@@ -86,7 +86,7 @@ def by_hand():
     pins(door_free=True, hand_enabled=False, lamp_door=True)
     stood = position("x")
     put("panel-x-minus", True)
-    passes(10)
+    scans(10)
     put("panel-x-minus", False)
     check(abs(position("x") - stood) < 0.01, "an axis moved with the door free")
     press("key-door")
@@ -302,7 +302,7 @@ def emergency_stop():
     stood = position("x")
     check(stood < 35, "the axis went on")
     put("estop-chain", True)
-    passes(10)
+    scans(10)
     check(not pin("main-contactor") and abs(position("x") - stood) < 0.01, "something started by itself")
     command.state(linuxcnc.STATE_ESTOP_RESET)
     is_state(linuxcnc.STATE_ESTOP_RESET)

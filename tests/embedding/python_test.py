@@ -385,11 +385,11 @@ class Running(Case):
         plc = self.plc(measure=True)
         state = plc.state()
         self.assertEqual(state.flags, rung.StateFlags.ON | rung.StateFlags.AT_START)
-        self.assertEqual((state.due_us, state.wait_ns, state.passes), (8000, 8 * MS, 0))
+        self.assertEqual((state.due_us, state.wait_ns, state.scans), (8000, 8 * MS, 0))
         for _ in range(16):
             self.assertIs(plc.run_due(MS), True)
         state = plc.state()
-        self.assertEqual((state.passes, state.now_us, state.missed), (2, 16000, 0))
+        self.assertEqual((state.scans, state.now_us, state.missed), (2, 16000, 0))
         self.assertGreater(state.worst_ns, 0)
         self.assertLessEqual(state.last_ns, state.worst_ns)
         self.assertTrue(plc.run_due(30 * 8 * MS))
@@ -406,7 +406,7 @@ class Running(Case):
         plc = self.plc("values")
         self.assertIs(plc.scan(), True)
         self.assertIs(plc.scan(count=4), True)
-        self.assertEqual((plc["COUNT"], plc.state().passes), (5, 5))
+        self.assertEqual((plc["COUNT"], plc.state().scans), (5, 5))
         while plc["COUNT"] == 5:
             self.assertIs(plc.slice(), True)
         self.assertEqual(plc.state().worst_ns, 0)  # not measured
@@ -441,7 +441,7 @@ class Running(Case):
         self.assertTrue(enable.value)
         plc["JAM"] = 1
         self.assertIs(plc.scan(1000), False)
-        self.assertLess(plc.state().passes, 10)
+        self.assertLess(plc.state().scans, 10)
         for run in (plc.scan, plc.slice, plc.slot, plc.fast):
             self.assertIs(run(), False)
         self.assertIs(plc.run_due(8 * MS), False)
@@ -1289,7 +1289,7 @@ class Replacing(Case):
         position = ctypes.c_int32(0)
         plc.bind("D0:4", position, rung.TO_PROGRAM)
         plc["START"] = True
-        with rung.Shadow(plc, self.image("axis-2"), passes=50) as shadow:
+        with rung.Shadow(plc, self.image("axis-2"), scans=50) as shadow:
             self.assertIs(shadow.work(), False)
             self.assertEqual(shadow.report().state, rung.ShadowState.PREPARED)
             plc.slice()
@@ -1309,7 +1309,7 @@ class Replacing(Case):
             self.assertEqual(found["ENABLE"].type, rung.Type.BIT)
             self.assertNotEqual(found["ENABLE"].running, found["ENABLE"].next)  # the other one goes further
             plc.shadow(None)
-        with rung.Shadow(plc, self.image("axis"), passes=5, room=1) as shadow:
+        with rung.Shadow(plc, self.image("axis"), scans=5, room=1) as shadow:
             self.assertTrue(plc.shadow(shadow))
             plc.scan()
             plc.scan()

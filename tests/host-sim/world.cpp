@@ -187,7 +187,7 @@ void World::cutPower() {
 // Orders are obeyed before the program runs.
 void World::step() {
   noteChanges(wholeScans, cell("SCANS")); // a client that waits restarts the program
-  const uint64_t before = host_->state().passes;
+  const uint64_t before = host_->state().scans;
   const uint64_t scansBefore = wholeScans;
   const int64_t cellBefore = cell("SCANS");
   if (far.isThere) {
@@ -201,7 +201,7 @@ void World::step() {
   ++steps;
   lastStepNs = nowNs_;
   const rung_state after = host_->state();
-  if (result == host::StepResult::Ran && (after.flags & RUNG_STATE_STOPPED) == 0 && after.passes == before + 1)
+  if (result == host::StepResult::Ran && (after.flags & RUNG_STATE_STOPPED) == 0 && after.scans == before + 1)
     ++wholeScans;
   noteChanges(scansBefore, cellBefore);
 }

@@ -133,8 +133,8 @@ class ForcesThatTakeTime(Forcing):
         return answer["error"]
 
     def test_others_are_answered(self):
-        before = self.passes()
-        self.wait(lambda: self.passes() > before + 5)
+        before = self.scans()
+        self.wait(lambda: self.scans() > before + 5)
         for words in (("force", "X0.0", "true"), ("unforce", "X0.0")):
             self.assertIn("another force is being compiled", self.ctl(*words, status=WRONG))
         self.assertEqual(self.ctl("forced"), "nothing is forced\n")

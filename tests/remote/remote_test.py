@@ -109,13 +109,13 @@ class Host(unittest.TestCase):
     def get(self, name):
         return json.loads(self.ctl("get", name, "--json"))["values"][name]
 
-    def passes(self):
+    def scans(self):
         return json.loads(self.ctl("status", "--json"))["scans"]
 
     def pass_by(self, count):
         """Waits for that many scans of the program."""
-        end = self.passes() + count
-        self.wait(lambda: self.passes() >= end)
+        end = self.scans() + count
+        self.wait(lambda: self.scans() >= end)
 
     def trace(self, out, *words):
         """A trace of names into a file, which sees every scan from the next one on."""
@@ -553,9 +553,9 @@ class Profile(Host):
             return self.rows()[1].get(4, {"executions": 0})["executions"]
 
         self.wait(lambda: executions() > 200)
-        before = self.passes()
+        before = self.scans()
         self.assertTrue(self.ctl("profile", "--reset").endswith("the counters start again from 0\n"))
-        self.assertLessEqual(executions(), self.passes() - before)  # one a scan, and none of the 200
+        self.assertLessEqual(executions(), self.scans() - before)  # one a scan, and none of the 200
         self.assertIn(": clear the profile", self.logged())
 
     def test_wrong_words(self):
@@ -1036,7 +1036,7 @@ class NobodyReads(Host):
     def test_it_runs_on_and_ends(self):
         os.read(self.reads, 1)
         os.dup2(os.open("/dev/null", os.O_RDONLY), self.reads)
-        self.assertTrue(wait_until(lambda: self.passes() > 0))
+        self.assertTrue(wait_until(lambda: self.scans() > 0))
         self.ctl("set", "X0.1", "true") # a line of its log; then the fault has another
         self.assertTrue(wait_until(lambda: "stopped by a fault" in self.ctl("status")))
         self.host.terminate()

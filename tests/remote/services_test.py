@@ -288,11 +288,11 @@ class NctServices(Provider):
 
     def test_an_axis_of_the_program_is_moved(self):
         provider = self.provider()
-        for bit, way in ((0, {"way": "by", "value": 12.5, "speed": 600.0}), (1, {"way": "home", "value": 0.0, "speed": 0.0})):
+        for bit, motion in ((0, {"motion": "by", "value": 12.5, "speed": 600.0}), (1, {"motion": "home", "value": 0.0, "speed": 0.0})):
             self.ctl("set", f"7000.{bit:02}", "true")
             asked = self.event(provider)
             ticket = asked.pop("ticket")
-            self.assertEqual(asked, {"event": "service", "quantity": "axis-move", "channel": 0, "number": 0, "axis": 5, **way})
+            self.assertEqual(asked, {"event": "service", "quantity": "axis-move", "channel": 0, "number": 0, "axis": 5, **motion})
             self.ask(provider, do="served", ticket=ticket, outcome="done")
             self.assertTrue(self.ends(bit))  # the NC takes it without an answer, so that of the provider changes nothing
 
@@ -320,7 +320,7 @@ class GskAxes(Provider):
     def provider(self):
         """Who comes gets the order to leave the axes at rest: nobody has said what they do."""
         provider = super().provider()
-        self.over(provider, self.asked(provider, way="stop", value=0.0, speed=0.0))
+        self.over(provider, self.asked(provider, motion="stop", value=0.0, speed=0.0))
         self.wait(lambda: self.get("EADEN4"))
         return provider
 
@@ -337,10 +337,10 @@ class GskAxes(Provider):
         self.ctl("set", "X0.2", "false")
         self.wait(lambda: not self.get("ECLRA"))
 
-    def asked(self, provider, **way):
+    def asked(self, provider, **motion):
         event = self.event(provider)
         ticket = event.pop("ticket")
-        self.assertEqual(event, {"event": "service", "quantity": "axis-move", "channel": 0, "number": 0, "axis": 3, "until": "over", **way})
+        self.assertEqual(event, {"event": "service", "quantity": "axis-move", "channel": 0, "number": 0, "axis": 3, "until": "over", **motion})
         return ticket
 
     def over(self, provider, ticket, outcome="done"):
@@ -355,31 +355,31 @@ class GskAxes(Provider):
     def test_blocks_wait_for_each_other(self):
         provider = self.provider()
         self.order(1, 600, -125000)
-        first = self.asked(provider, way="by", value=-12.5, speed=600.0)
+        first = self.asked(provider, motion="by", value=-12.5, speed=600.0)
         self.order(0, 100, 100)
         self.order(0, 200, 100)
         self.wait(lambda: self.get("EABUFA"))
         self.over(provider, first)
-        second = self.asked(provider, way="by", value=0.01, speed=100.0)
+        second = self.asked(provider, motion="by", value=0.01, speed=100.0)
         self.wait(lambda: not self.get("EABUFA"))
         self.over(provider, second)
-        self.over(provider, self.asked(provider, way="by", value=0.01, speed=200.0))
+        self.over(provider, self.asked(provider, motion="by", value=0.01, speed=200.0))
         self.wait(lambda: self.get("EINPA") and not self.get("*EAXSL"))
 
     def test_commands(self):
         provider = self.provider()
-        for block, way in (((0, 6000, 10000), {"way": "by", "value": 1.0, "speed": 6000.0}), ((32, 300, -5000), {"way": "at", "value": -0.5, "speed": 300.0}),
-                           ((5, 0, 0), {"way": "home", "value": 0.0, "speed": 0.0}), ((7, 900, 3), {"way": "home", "value": 0.0, "speed": 900.0})):
+        for block, motion in (((0, 6000, 10000), {"motion": "by", "value": 1.0, "speed": 6000.0}), ((32, 300, -5000), {"motion": "at", "value": -0.5, "speed": 300.0}),
+                           ((5, 0, 0), {"motion": "home", "value": 0.0, "speed": 0.0}), ((7, 900, 3), {"motion": "home", "value": 0.0, "speed": 900.0})):
             self.order(*block)
-            ticket = self.asked(provider, **way)
+            ticket = self.asked(provider, **motion)
             self.assertTrue(self.get("EGENA"), block)
             self.over(provider, ticket)
             self.wait(lambda: self.get("EINPA") and not self.get("*EAXSL"))
-        for block, way in (((6, 200, 1), {"value": -1.0, "speed": 200.0}), ((16, 65534, 0), {"value": -1.0, "speed": 720.0})):
+        for block, motion in (((6, 200, 1), {"value": -1.0, "speed": 200.0}), ((16, 65534, 0), {"value": -1.0, "speed": 720.0})):
             self.order(*block)
-            self.asked(provider, way="jog", **way)
+            self.asked(provider, motion="jog", **motion)
             self.ctl("set", "X0.2", "true")
-            ticket = self.asked(provider, way="stop", value=0.0, speed=0.0)
+            ticket = self.asked(provider, motion="stop", value=0.0, speed=0.0)
             self.assertTrue(self.get("*EAXSL"))
             self.over(provider, ticket)
             self.clear()
@@ -391,20 +391,20 @@ class GskAxes(Provider):
             self.wait(lambda: self.get("EIALA"))
             self.clear()
         self.order(1, 100, 100)
-        self.over(provider, self.asked(provider, way="by", value=0.01, speed=100.0), outcome="no-axis")
+        self.over(provider, self.asked(provider, motion="by", value=0.01, speed=100.0), outcome="no-axis")
         self.wait(lambda: self.get("EIALA"))
 
     def test_who_was_silent_begins_anew(self):
         provider = self.provider()
         self.order(6, 200, 1)
-        jog = self.asked(provider, way="jog", value=-1.0, speed=200.0)
+        jog = self.asked(provider, motion="jog", value=-1.0, speed=200.0)
         self.assertTrue(self.ask(provider, do="serve", alive_ms=200)["ok"])
         self.assertEqual(self.event(provider), {"event": "unserved"})
         self.wait(lambda: self.get("EIALA") and not self.get("EINPA"))
         for request in ({"do": "live"}, {"do": "served", "ticket": jog, "outcome": "done"}):
             self.assertIn("does not serve the program", self.ask(provider, **request)["error"])
         self.assertTrue(self.ask(provider, do="serve")["ok"])
-        self.over(provider, self.asked(provider, way="stop", value=0.0, speed=0.0))
+        self.over(provider, self.asked(provider, motion="stop", value=0.0, speed=0.0))
         self.clear()
         self.wait(lambda: self.get("EINPA"))
 
@@ -424,19 +424,19 @@ class GskAxes(Provider):
     def test_who_serves_learns_of_a_restart(self):
         provider = self.provider()
         self.order(6, 200, 1)
-        self.asked(provider, way="jog", value=-1.0, speed=200.0)
+        self.asked(provider, motion="jog", value=-1.0, speed=200.0)
         self.ctl("set", "X0.7", "true")
         self.wait(lambda: "stopped by a fault: dead-loop" in self.ctl("status"))
         self.ctl("set", "X0.7", "false")
         self.ctl("reset")
         self.assertEqual(self.event(provider), {"event": "unserved"})
         self.assertEqual(self.ask(provider, do="serve"), {"again": False, "ok": True})
-        self.over(provider, self.asked(provider, way="stop", value=0.0, speed=0.0))
+        self.over(provider, self.asked(provider, motion="stop", value=0.0, speed=0.0))
 
     def test_motions_take_their_time(self):
         provider = self.provider()
         self.order(1, 100, 100)
-        ticket = self.asked(provider, way="by", value=0.01, speed=100.0)
+        ticket = self.asked(provider, motion="by", value=0.01, speed=100.0)
         self.pass_by(5500 // 8)  # longer than other requests wait
         self.over(provider, ticket)
         self.wait(lambda: self.get("EINPA") and not self.get("EIALA"))

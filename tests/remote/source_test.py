@@ -83,8 +83,8 @@ class SourceHost(Host):
 
     def assertScans(self):
         """The host goes on, answers, and has no process left."""
-        before = self.passes()
-        self.wait(lambda: self.passes() > before + 5)
+        before = self.scans()
+        self.wait(lambda: self.scans() > before + 5)
         self.wait(lambda: not self.children())
 
 
@@ -250,9 +250,9 @@ class Attacks(SourceHost):
     def test_a_program_that_takes_too_long_or_too_much(self):
         connection = self.connected()
         self.assertTrue(self.send(connection, self.large(15_500_000))["ok"])
-        before = self.passes()
+        before = self.scans()
         self.assertTrue(self.ask(connection, do="compile")["ok"])
-        self.wait(lambda: self.passes() > before + 100)  # others are answered
+        self.wait(lambda: self.scans() > before + 100)  # others are answered
         self.assertEqual(len(self.children()), 1)
         self.wait(lambda: os.getpriority(os.PRIO_PROCESS, self.children()[0]) == 19)
         answer = self.result(connection)

@@ -132,12 +132,12 @@ private:
       const int32_t status = plc_.runDue(kTickNs);
       spentNs_ += processorNs() - begin;
       if (status != RUNG_OK) fail("the program does not run", status);
-      if (const rung_state state = plc_.state(); state.passes != passes_) passEnded(state);
+      if (const rung_state state = plc_.state(); state.scans != scans_) scanEnded(state);
     }
   }
 
-  void passEnded(const rung_state& state) {
-    passes_ = state.passes;
+  void scanEnded(const rung_state& state) {
+    scans_ = state.scans;
     model_.scan(state.now_us);
     (replaced_ ? figures_.first : figures_.usual)[program_].add(spentNs_);
     spentNs_ = 0;
@@ -176,14 +176,14 @@ private:
     const std::vector<int64_t> wanted = model_.values();
     for (size_t i = 0; i < wanted.size(); ++i) {
       if (values_[i].integer == wanted[i]) continue;
-      std::printf("%s, pass %llu: %s is %lld, not %lld\n", kNames[program_], static_cast<unsigned long long>(passes_),
+      std::printf("%s, scan %llu: %s is %lld, not %lld\n", kNames[program_], static_cast<unsigned long long>(scans_),
                   Model::names()[i].c_str(), static_cast<long long>(values_[i].integer),
                   static_cast<long long>(wanted[i]));
       failed_ = true;
     }
   }
   void fail(const char* what, int32_t status) {
-    std::printf("pass %llu: %s (%d)\n", static_cast<unsigned long long>(passes_), what, status);
+    std::printf("scan %llu: %s (%d)\n", static_cast<unsigned long long>(scans_), what, status);
     failed_ = true;
   }
 
@@ -196,7 +196,7 @@ private:
   std::vector<rung_value> values_;
   Model model_;
   std::mt19937 random_{3};
-  uint64_t passes_ = 0;
+  uint64_t scans_ = 0;
   int64_t spentNs_ = 0; // in the scan that runs
   uint32_t program_ = 0;
   bool replaced_ = false;
@@ -252,7 +252,7 @@ double usualUs(const Figures& figures, double share) {
 
 bool withinBounds(const Figures& figures) {
   for (uint32_t i = 0; i < kPrograms; ++i)
-    figures.usual[i].print(("a usual pass of " + std::string(kNames[i])).c_str());
+    figures.usual[i].print(("a usual scan of " + std::string(kNames[i])).c_str());
   figures.call.print("the call");
   const double median = pauseUs(figures, 0.5), percentile = pauseUs(figures, 0.99);
   std::printf("%-28s median %6.1f us, 99 %% %6.1f us\n", "the pause", median, percentile);

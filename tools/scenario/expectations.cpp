@@ -11,36 +11,36 @@ namespace rung::scenario {
 
 using runtime::Ref;
 
-std::string setValue(Lane& lane, const Statement& s) {
+std::string setValue(EngineRun& run, const Statement& s) {
   const bool quantity = s.name.starts_with("NC.");
   if (quantity && s.value.kind == ValueKind::Text) return "a variable of the NC is a number, not a text";
-  if (quantity) return lane.nc().setQuantity(std::string_view(s.name).substr(3), s.value.real);
-  const std::optional<Ref> place = lane.nc().writePlace(lane.instance().program(), s.name);
+  if (quantity) return run.nc().setQuantity(std::string_view(s.name).substr(3), s.value.real);
+  const std::optional<Ref> place = run.nc().writePlace(run.instance().program(), s.name);
   if (!place) {
-    const std::optional<sim::NcCell> now = lane.nc().readCell(s.name);
+    const std::optional<sim::NcCell> now = run.nc().readCell(s.name);
     if (std::string wrong = now ? cellProblem(*now, s.value) : ""; !wrong.empty()) return wrong;
-    const auto problem = lane.nc().writeCell(s.name, cellOf(s.value));
-    return problem ? *problem : unknownName(lane.instance().program(), lane.nc(), s.name);
+    const auto problem = run.nc().writeCell(s.name, cellOf(s.value));
+    return problem ? *problem : unknownName(run.instance().program(), run.nc(), s.name);
   }
-  lane.nc().beforeWrite(lane.instance(), *place);
-  return writeValue(lane.instance(), lane.nc().control(), *place, s.value);
+  run.nc().beforeWrite(run.instance(), *place);
+  return writeValue(run.instance(), run.nc().control(), *place, s.value);
 }
 
-std::string expectValue(const Lane& lane, const Statement& s) {
-  const Result<Reading> reading = readName(lane.instance(), lane.nc(), s.name, wantsReal(s));
+std::string expectValue(const EngineRun& run, const Statement& s) {
+  const Result<Reading> reading = readName(run.instance(), run.nc(), s.name, wantsReal(s));
   return reading.ok() ? checkValue(reading.value(), s) : reading.error();
 }
 
-std::string expectRange(const Lane& lane, const Statement& s) {
-  const Result<Reading> reading = readName(lane.instance(), lane.nc(), s.name, wantsReal(s));
+std::string expectRange(const EngineRun& run, const Statement& s) {
+  const Result<Reading> reading = readName(run.instance(), run.nc(), s.name, wantsReal(s));
   return reading.ok() ? checkRange(reading.value(), s) : reading.error();
 }
 
 // Of several messages with this number one must (or none may) have the properties.
-std::string expectMessage(const Lane& lane, const Statement& s) {
+std::string expectMessage(const EngineRun& run, const Statement& s) {
   std::string seen;
   std::string difference;
-  for (const nc::ShownMessage& message : lane.nc().control().messages(lane.instance())) {
+  for (const nc::ShownMessage& message : run.nc().control().messages(run.instance())) {
     seen += fmt::format("{}{}", seen.empty() ? "" : ", ", message.number);
     if (message.number != s.number) continue;
     std::string own = messageDifference(message, s.keys);
@@ -53,11 +53,11 @@ std::string expectMessage(const Lane& lane, const Statement& s) {
              : difference;
 }
 
-std::string expectLog(Lane& lane, const Statement& s) {
+std::string expectLog(EngineRun& run, const Statement& s) {
   std::string seen;
-  for (const std::string& line : lane.unreadLog()) {
+  for (const std::string& line : run.unreadLog()) {
     if (line.find(s.value.text) != std::string::npos) {
-      lane.unreadLog().clear();
+      run.unreadLog().clear();
       return {};
     }
     seen += "\n  " + line;
@@ -65,9 +65,9 @@ std::string expectLog(Lane& lane, const Statement& s) {
   return fmt::format("no log entry contains \"{}\"{}{}", s.value.text, seen.empty() ? "" : "; there are:", seen);
 }
 
-std::string expectFault(const Lane& lane, const Statement& s) {
-  if (!lane.instance().faulted()) return fmt::format("the program runs; expected the fault \"{}\"", s.value.text);
-  const std::string text = lane.instance().faultText();
+std::string expectFault(const EngineRun& run, const Statement& s) {
+  if (!run.instance().faulted()) return fmt::format("the program runs; expected the fault \"{}\"", s.value.text);
+  const std::string text = run.instance().faultText();
   return text.find(s.value.text) != std::string::npos
              ? std::string()
              : fmt::format("the fault is \"{}\", expected \"{}\"", text, s.value.text);

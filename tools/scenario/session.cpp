@@ -25,29 +25,31 @@ std::string scanText(uint64_t scan, int64_t us) {
 
 // ---- start ---------------------------------------------------------------------------------------------------------
 
-void Session::addEngine(runtime::Engine& engine) { lanes_.push_back(std::make_unique<Lane>(engine, folder_, clock_)); }
+void Session::addEngine(runtime::Engine& engine) {
+  runs_.push_back(std::make_unique<EngineRun>(engine, folder_, clock_));
+}
 
 void Session::setCompiled(const compiler::GetCompiled& compiled) {
-  for (const std::unique_ptr<Lane>& lane : lanes_) lane->serve(compiled);
+  for (const std::unique_ptr<EngineRun>& run : runs_) run->serve(compiled);
 }
 
 std::string Session::config(std::string_view key, std::string_view value) {
-  for (const std::unique_ptr<Lane>& lane : lanes_)
-    if (std::string problem = lane->nc().config(key, value); !problem.empty()) return problem;
+  for (const std::unique_ptr<EngineRun>& run : runs_)
+    if (std::string problem = run->nc().config(key, value); !problem.empty()) return problem;
   return {};
 }
 
 std::string Session::connect(std::string_view source, std::string_view destination) {
-  for (const std::unique_ptr<Lane>& lane : lanes_)
-    if (std::string problem = lane->nc().connect(source, destination); !problem.empty()) return problem;
+  for (const std::unique_ptr<EngineRun>& run : runs_)
+    if (std::string problem = run->nc().connect(source, destination); !problem.empty()) return problem;
   return {};
 }
 
 std::vector<sim::NcProblem> Session::start(nc::PowerOn kind) {
-  for (const std::unique_ptr<Lane>& lane : lanes_) {
-    lane->powerOn(kind);
+  for (const std::unique_ptr<EngineRun>& run : runs_) {
+    run->powerOn(kind);
     // The ends of connections are known when the program has started.
-    if (auto problems = lane->nc().connectionProblems(); !problems.empty()) return problems;
+    if (auto problems = run->nc().connectionProblems(); !problems.empty()) return problems;
   }
   if (std::string text = difference(); !text.empty()) return {{RUNG_NONE, std::move(text)}};
   running_ = true;
@@ -64,15 +66,15 @@ void Session::addObserver(Observer& observer) {
 
 // The engines must agree after every scan.
 std::string Session::difference() const {
-  for (size_t i = 1; i < lanes_.size(); ++i)
-    if (const auto found = runtime::firstDifference(instance(), lanes_[i]->instance(), nc::describe))
-      return fmt::format("engines disagree (a bug in Rung): {} and {}: {}", lanes_[0]->engineName(),
-                         lanes_[i]->engineName(), *found);
+  for (size_t i = 1; i < runs_.size(); ++i)
+    if (const auto found = runtime::firstDifference(instance(), runs_[i]->instance(), nc::describe))
+      return fmt::format("engines disagree (a bug in Rung): {} and {}: {}", runs_[0]->engineName(),
+                         runs_[i]->engineName(), *found);
   return {};
 }
 
-std::string Session::advanceOnce(Lane::Advance how) {
-  for (const std::unique_ptr<Lane>& lane : lanes_) lane->advance(how);
+std::string Session::advanceOnce(EngineRun::Advance how) {
+  for (const std::unique_ptr<EngineRun>& run : runs_) run->advance(how);
   ++scans_;
   return afterScan();
 }
@@ -80,28 +82,28 @@ std::string Session::advanceOnce(Lane::Advance how) {
 std::string Session::afterScan() {
   std::string problem = difference();
   shadows_.work();
-  for (const std::unique_ptr<Lane>& lane : lanes_) {
+  for (const std::unique_ptr<EngineRun>& run : runs_) {
     if (unattended_)
-      lane->ignore();
+      run->ignore();
     else
-      lane->requests().take(lane->instance());
+      run->requests().take(run->instance());
   }
   for (Observer* observer : observers_) observer->scanned(*this);
   return problem;
 }
 
 runtime::RealTimeStats Session::runRealTime() {
-  Lane& lane = *lanes_[0];
-  lane.nc().setRealTime();
-  const auto slice = [&lane] { lane.advance(&sim::Machine::slice); };
-  return runtime::runRealTime(lane.instance(), slice, [&] {
-    scans_ += lane.instance().atListStart() ? 1 : 0;
+  EngineRun& run = *runs_[0];
+  run.nc().setRealTime();
+  const auto slice = [&run] { run.advance(&sim::Machine::slice); };
+  return runtime::runRealTime(run.instance(), slice, [&] {
+    scans_ += run.instance().atListStart() ? 1 : 0;
     afterScan();
-    return !lane.instance().faulted() && !interrupted();
+    return !run.instance().faulted() && !interrupted();
   });
 }
 
-std::string Session::advance(uint64_t count, Lane::Advance how) {
+std::string Session::advance(uint64_t count, EngineRun::Advance how) {
   for (uint64_t i = 0; i < count; ++i) {
     if (std::string problem = advanceOnce(how); !problem.empty()) return problem;
     if (interrupted()) return {};
@@ -117,15 +119,15 @@ std::string Session::runFor(const Statement& s) {
     if (interrupted()) return {};
     // A stopped or faulted program may leave the clock alone; its time continues all the same.
     if (nowUs() != before) continue;
-    for (const std::unique_ptr<Lane>& lane : lanes_) lane->instance().advanceClock(end - before);
+    for (const std::unique_ptr<EngineRun>& run : runs_) run->instance().advanceClock(end - before);
   }
   return {};
 }
 
 std::string Session::restart(nc::PowerOn kind) try {
-  for (const std::unique_ptr<Lane>& lane : lanes_) {
-    if (kind == nc::PowerOn::Warm) lane->machine().powerOff();
-    lane->powerOn(kind);
+  for (const std::unique_ptr<EngineRun>& run : runs_) {
+    if (kind == nc::PowerOn::Warm) run->machine().powerOff();
+    run->powerOn(kind);
   }
   faultExpected_ = false;
   for (Observer* observer : observers_) observer->started(*this);
@@ -136,8 +138,8 @@ std::string Session::restart(nc::PowerOn kind) try {
 
 // ---- statements ----------------------------------------------------------------------------------------------------
 
-std::string Session::prefixed(const Lane& lane, const std::string& problem) const {
-  return lanes_.size() > 1 ? fmt::format("[{}] {}", lane.engineName(), problem) : problem;
+std::string Session::prefixed(const EngineRun& run, const std::string& problem) const {
+  return runs_.size() > 1 ? fmt::format("[{}] {}", run.engineName(), problem) : problem;
 }
 
 std::string Session::atScan(std::string problem) const {
@@ -149,10 +151,10 @@ std::string Session::atScan(std::string problem) const {
 
 std::string Session::unexpectedFault() const {
   if (faultExpected_) return {};
-  for (const std::unique_ptr<Lane>& lane : lanes_)
-    if (lane->instance().faulted())
+  for (const std::unique_ptr<EngineRun>& run : runs_)
+    if (run->instance().faulted())
       return atScan(
-          fmt::format("[{}] the program stopped with a fault: {}", lane->engineName(), lane->instance().faultText()));
+          fmt::format("[{}] the program stopped with a fault: {}", run->engineName(), run->instance().faultText()));
   return {};
 }
 
@@ -179,17 +181,17 @@ std::string Session::shadow(const Statement& s) {
   shadows_.end();
   if (s.words.empty()) return {};
   const Result<NextProgram> next = makeProgram(s);
-  return next.ok() ? shadows_.begin(lanes_, next.value().engines) : next.error();
+  return next.ok() ? shadows_.begin(runs_, next.value().engines) : next.error();
 }
 
 std::string Session::replace(const Statement& s) {
   const Result<NextProgram> next = makeProgram(s);
   if (!next.ok()) return next.error();
   ReplaceReport report;
-  for (size_t i = 0; i < lanes_.size(); ++i)
-    if (const std::string problem = lanes_[i]->replace(*next.value().engines[i], next.value().compiled, report);
+  for (size_t i = 0; i < runs_.size(); ++i)
+    if (const std::string problem = runs_[i]->replace(*next.value().engines[i], next.value().compiled, report);
         !problem.empty())
-      return prefixed(*lanes_[i], problem);
+      return prefixed(*runs_[i], problem);
   shadows_.end();
   report_ = std::move(report);
   for (Observer* observer : observers_) observer->replaced(*this, next.value());
@@ -215,7 +217,7 @@ std::optional<Problem> Session::execute(const Statement& s) {
 }
 
 std::string Session::set(const Statement& s) {
-  return forLanes([&](Lane& lane) { return setValue(lane, s); });
+  return forRuns([&](EngineRun& run) { return setValue(run, s); });
 }
 
 std::string Session::scan(const Statement& s) { return advance(s.count, &sim::Machine::scan); }
@@ -226,34 +228,34 @@ std::string Session::slot(const Statement& s) {
 }
 
 std::string Session::expect(const Statement& s) {
-  return forLanes([&](Lane& lane) { return expectValue(lane, s); });
+  return forRuns([&](EngineRun& run) { return expectValue(run, s); });
 }
 std::string Session::expectRange(const Statement& s) {
-  return forLanes([&](Lane& lane) { return scenario::expectRange(lane, s); });
+  return forRuns([&](EngineRun& run) { return scenario::expectRange(run, s); });
 }
 std::string Session::expectMessage(const Statement& s) {
-  return forLanes([&](Lane& lane) { return scenario::expectMessage(lane, s); });
+  return forRuns([&](EngineRun& run) { return scenario::expectMessage(run, s); });
 }
 std::string Session::expectLog(const Statement& s) {
-  return forLanes([&](Lane& lane) { return scenario::expectLog(lane, s); });
+  return forRuns([&](EngineRun& run) { return scenario::expectLog(run, s); });
 }
 std::string Session::expectFault(const Statement& s) {
-  std::string problem = forLanes([&](Lane& lane) { return scenario::expectFault(lane, s); });
+  std::string problem = forRuns([&](EngineRun& run) { return scenario::expectFault(run, s); });
   faultExpected_ = faultExpected_ || problem.empty();
   return problem;
 }
 
 std::string Session::expectCall(const Statement& s) {
-  return forLanes([&](Lane& lane) { return lane.requests().expectCall(lane.instance(), s); });
+  return forRuns([&](EngineRun& run) { return run.requests().expectCall(run.instance(), s); });
 }
 std::string Session::expectNoCall(const Statement& s) {
-  return forLanes([&](Lane& lane) { return lane.requests().expectNoCall(lane.instance(), s); });
+  return forRuns([&](EngineRun& run) { return run.requests().expectNoCall(run.instance(), s); });
 }
 std::string Session::reply(const Statement& s) {
-  return forLanes([&](Lane& lane) { return lane.requests().reply(lane.instance(), s); });
+  return forRuns([&](EngineRun& run) { return run.requests().reply(run.instance(), s); });
 }
 std::string Session::prepare(const Statement& s) {
-  return forLanes([&](Lane& lane) { return lane.requests().prepare(lane.instance(), s); });
+  return forRuns([&](EngineRun& run) { return run.requests().prepare(run.instance(), s); });
 }
 
 std::string Session::expectSent(const Statement& s) {
@@ -273,10 +275,10 @@ std::string Session::plc(const Statement& s) {
 std::string Session::coldStart(const Statement&) { return restart(nc::PowerOn::Cold); }
 std::string Session::warmStart(const Statement&) { return restart(nc::PowerOn::Warm); }
 
-std::string Session::expectDifference(const Statement& s) { return shadows_.expectDifference(lanes_, s.name); }
-std::string Session::expectNoDifference(const Statement&) { return shadows_.expectNone(lanes_); }
+std::string Session::expectDifference(const Statement& s) { return shadows_.expectDifference(runs_, s.name); }
+std::string Session::expectNoDifference(const Statement&) { return shadows_.expectNone(runs_); }
 
-std::string Session::force(const Statement& s) { return forces_.set(lanes_, s.name, s.value); }
-std::string Session::unforce(const Statement& s) { return forces_.clear(lanes_, s.words); }
+std::string Session::force(const Statement& s) { return forces_.set(runs_, s.name, s.value); }
+std::string Session::unforce(const Statement& s) { return forces_.clear(runs_, s.words); }
 
 } // namespace rung::scenario

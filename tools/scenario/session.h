@@ -17,8 +17,8 @@
 
 #include "ir/analysis/uses.h"
 #include "rtlib/run/realtime.h"
+#include "tools/scenario/engine_run.h"
 #include "tools/scenario/forces.h"
-#include "tools/scenario/lane.h"
 #include "tools/scenario/scenario.h"
 #include "tools/scenario/shadows.h"
 
@@ -72,7 +72,7 @@ public:
   // Of the program that is run from the start.
   void setCompiled(const compiler::GetCompiled& compiled);
 
-  // Executes one statement in all lanes. What is wrong is what the statement expected or could not do, with the scan
+  // Executes one statement in all runs. What is wrong is what the statement expected or could not do, with the scan
   // and the time; statements that belong to the start are refused.
   std::optional<Problem> execute(const Statement& s);
   // Why the program stopped; "" when it runs or an expect_fault has named the fault.
@@ -84,11 +84,11 @@ public:
   runtime::RealTimeStats runRealTime();
 
   // Of the first engine.
-  sim::Machine& machine() { return lanes_[0]->machine(); }
-  runtime::Instance& instance() { return lanes_[0]->instance(); }
-  const runtime::Instance& instance() const { return lanes_[0]->instance(); }
-  sim::SimulatedNc& nc() { return lanes_[0]->nc(); }
-  const sim::SimulatedNc& nc() const { return lanes_[0]->nc(); }
+  sim::Machine& machine() { return runs_[0]->machine(); }
+  runtime::Instance& instance() { return runs_[0]->instance(); }
+  const runtime::Instance& instance() const { return runs_[0]->instance(); }
+  sim::SimulatedNc& nc() { return runs_[0]->nc(); }
+  const sim::SimulatedNc& nc() const { return runs_[0]->nc(); }
   int64_t nowUs() const { return instance().nowUs(); }
   uint64_t scans() const { return scans_; } // slots and runs of the fast part count too
   // Of the last replacement; empty before one.
@@ -96,7 +96,7 @@ public:
   // What the program beside this one has done otherwise since the last call.
   std::vector<std::string> shadowNews() { return shadows_.news(); }
   // What is forced now.
-  const Forces::Values& forces() { return forces_.values(lanes_); }
+  const Forces::Values& forces() { return forces_.values(runs_); }
   // The one that is being executed, for observers; else null.
   const Statement* statement() const { return statement_; }
 
@@ -108,26 +108,26 @@ public:
 private:
   // The problem with scan and time at the end of its first line.
   std::string atScan(std::string problem) const;
-  std::string advance(uint64_t count, Lane::Advance how);
-  std::string advanceOnce(Lane::Advance how);
+  std::string advance(uint64_t count, EngineRun::Advance how);
+  std::string advanceOnce(EngineRun::Advance how);
   std::string afterScan();
   std::string restart(nc::PowerOn kind);
   Result<NextProgram> makeProgram(const Statement& s);
   std::string difference() const;
   bool interrupted() const { return interrupted_ && interrupted_(); }
 
-  // Calls act(lane) for every lane; the first text that one gives is the problem.
+  // Calls act(run) for every run; the first text that one gives is the problem.
   template <class Act>
-  std::string forLanes(Act act) {
-    for (const std::unique_ptr<Lane>& lane : lanes_)
-      if (const std::string problem = act(*lane); !problem.empty()) return prefixed(*lane, problem);
+  std::string forRuns(Act act) {
+    for (const std::unique_ptr<EngineRun>& run : runs_)
+      if (const std::string problem = act(*run); !problem.empty()) return prefixed(*run, problem);
     return {};
   }
   template <class Act>
   std::string operate(Act act) {
-    return forLanes([&](Lane& lane) { return lane.operate(act); });
+    return forRuns([&](EngineRun& run) { return run.operate(act); });
   }
-  std::string prefixed(const Lane& lane, const std::string& problem) const;
+  std::string prefixed(const EngineRun& run, const std::string& problem) const;
 
   friend struct StatementInfo; // its rows name the functions that run statements
   std::string set(const Statement& s);
@@ -162,7 +162,7 @@ private:
 
   std::string folder_;
   sim::Clock clock_;
-  std::vector<std::unique_ptr<Lane>> lanes_;
+  std::vector<std::unique_ptr<EngineRun>> runs_;
   std::vector<Observer*> observers_;
   std::function<bool()> interrupted_;
   MakeProgram makeProgram_;

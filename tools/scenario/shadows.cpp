@@ -44,7 +44,7 @@ std::string endOf(const rung_shadow_info& info) {
   case RUNG_SHADOW_STOPPED: return "the shadow has ended together with the program";
   case RUNG_SHADOW_TOO_SLOW:
     return "the shadow has ended: a scan had more task runs or requests than there is room for";
-  case RUNG_SHADOW_FINISHED: return fmt::format("the shadow has ended after {} scans", RUNG_MOST_SHADOW_PASSES);
+  case RUNG_SHADOW_FINISHED: return fmt::format("the shadow has ended after {} scans", RUNG_MOST_SHADOW_SCANS);
   default: return {};
   }
 }
@@ -58,19 +58,19 @@ std::string listOf(const std::vector<rung_difference>& differences) {
 
 } // namespace
 
-std::string Shadows::begin(const Lanes& lanes, const std::vector<runtime::Engine*>& engines) try {
+std::string Shadows::begin(const EngineRuns& runs, const std::vector<runtime::Engine*>& engines) try {
   end();
-  std::vector<InLane> inLanes;
-  for (size_t i = 0; i < lanes.size(); ++i) {
+  std::vector<InRun> inRuns;
+  for (size_t i = 0; i < runs.size(); ++i) {
     rung::Image image = rung::Image::adopt(engines[i]->program(), engines[i]->context());
-    rung::Shadow shadow(lanes[i]->machine().instance(), image, RUNG_MOST_SHADOW_PASSES,
-                        roomFor(lanes[i]->instance().program()));
-    inLanes.push_back({std::move(image), std::move(shadow)});
+    rung::Shadow shadow(runs[i]->machine().instance(), image, RUNG_MOST_SHADOW_SCANS,
+                        roomFor(runs[i]->instance().program()));
+    inRuns.push_back({std::move(image), std::move(shadow)});
   }
-  for (size_t i = 0; i < lanes.size(); ++i)
-    if (check(rung_instance_shadow(lanes[i]->machine().instance().handle(), inLanes[i].shadow.handle())) != RUNG_OK)
-      return lanes[i]->instance().faulted() ? "a program that a fault has stopped has no shadow" : rung_error_text();
-  inLanes_ = std::move(inLanes);
+  for (size_t i = 0; i < runs.size(); ++i)
+    if (check(rung_instance_shadow(runs[i]->machine().instance().handle(), inRuns[i].shadow.handle())) != RUNG_OK)
+      return runs[i]->instance().faulted() ? "a program that a fault has stopped has no shadow" : rung_error_text();
+  inRuns_ = std::move(inRuns);
   taken_.clear();
   shown_.clear();
   return {};
@@ -79,27 +79,27 @@ std::string Shadows::begin(const Lanes& lanes, const std::vector<runtime::Engine
 }
 
 void Shadows::work() {
-  for (InLane& lane : inLanes_)
-    while (lane.shadow.work()) continue;
+  for (InRun& run : inRuns_)
+    while (run.shadow.work()) continue;
 }
 
 template <class Look>
-std::string Shadows::inAll(const Lanes& lanes, Look look) {
-  if (inLanes_.empty()) return kNone;
-  for (size_t i = 0; i < inLanes_.size(); ++i) {
-    const rung_shadow_info info = inLanes_[i].shadow.report();
+std::string Shadows::inAll(const EngineRuns& runs, Look look) {
+  if (inRuns_.empty()) return kNone;
+  for (size_t i = 0; i < inRuns_.size(); ++i) {
+    const rung_shadow_info info = inRuns_[i].shadow.report();
     std::vector<rung_difference> left;
-    for (const rung_difference& difference : inLanes_[i].shadow.differences())
+    for (const rung_difference& difference : inRuns_[i].shadow.differences())
       if (!taken_.contains(nameOf(difference))) left.push_back(difference);
     if (std::string problem = look(info, left); !problem.empty())
-      return lanes.size() > 1 ? fmt::format("[{}] {}", lanes[i]->engineName(), problem) : problem;
+      return runs.size() > 1 ? fmt::format("[{}] {}", runs[i]->engineName(), problem) : problem;
   }
   return {};
 }
 
-std::string Shadows::expectDifference(const Lanes& lanes, const std::string& name) {
+std::string Shadows::expectDifference(const EngineRuns& runs, const std::string& name) {
   std::string problem =
-      inAll(lanes, [&](const rung_shadow_info&, const std::vector<rung_difference>& left) -> std::string {
+      inAll(runs, [&](const rung_shadow_info&, const std::vector<rung_difference>& left) -> std::string {
         if (std::ranges::any_of(left, [&](const rung_difference& d) { return nameOf(d) == name; })) return {};
         return left.empty() ? fmt::format("the shadow shows no difference; expected {}", name)
                             : fmt::format("{} did not differ; the differences are: {}", name, listOf(left));
@@ -108,8 +108,8 @@ std::string Shadows::expectDifference(const Lanes& lanes, const std::string& nam
   return problem;
 }
 
-std::string Shadows::expectNone(const Lanes& lanes) {
-  return inAll(lanes, [](const rung_shadow_info& info, const std::vector<rung_difference>& left) -> std::string {
+std::string Shadows::expectNone(const EngineRuns& runs) {
+  return inAll(runs, [](const rung_shadow_info& info, const std::vector<rung_difference>& left) -> std::string {
     if (!left.empty()) return "there are differences that no expect_difference names: " + listOf(left);
     return endOf(info);
   });
@@ -117,12 +117,12 @@ std::string Shadows::expectNone(const Lanes& lanes) {
 
 std::vector<std::string> Shadows::news() {
   std::vector<std::string> lines;
-  if (inLanes_.empty()) return lines;
-  const rung_shadow_info info = inLanes_[0].shadow.report();
+  if (inRuns_.empty()) return lines;
+  const rung_shadow_info info = inRuns_[0].shadow.report();
   const auto show = [&](const std::string& key, std::string line) {
     if (shown_.insert(key).second) lines.push_back(std::move(line));
   };
-  for (const rung_difference& difference : inLanes_[0].shadow.differences())
+  for (const rung_difference& difference : inRuns_[0].shadow.differences())
     show(nameOf(difference), textOf(difference));
   if (const std::string end = endOf(info); !end.empty()) show("", end);
   return lines;

@@ -250,7 +250,7 @@ typedef struct rung_state {
   uint32_t due_us;           /* from now on the program's clock to the next slice */
   int64_t now_us;            /* the program's clock */
   int64_t wait_ns;           /* of rung_instance_run_due: until the next slice is due; 0 or less: it is */
-  uint64_t passes;           /* of the schedule, since the power-on */
+  uint64_t scans;            /* of the schedule, since the power-on */
   uint64_t missed;           /* scans that rung_instance_run_due has left out */
   int64_t last_ns;           /* time of the last scan that is over, with RUNG_MEASURE */
   int64_t worst_ns;          /* the longest since the power-on, with RUNG_MEASURE */
@@ -610,7 +610,7 @@ typedef struct rung_watch rung_watch;
 typedef struct rung_sample {
   uint32_t size;
   uint32_t generation; /* see rung_state */
-  uint64_t pass;       /* of the schedule, since the power-on, from 1; also the one that a fault has ended */
+  uint64_t scan;       /* of the schedule, since the power-on, from 1; also the one that a fault has ended */
   int64_t now_us;      /* the program's clock */
   uint64_t lost;       /* scans since the power-on of the watch that rung_watch_next could not keep */
 } rung_sample;
@@ -746,13 +746,13 @@ enum rung_shadow_state {
   RUNG_SHADOW_FAULTED = 5,  /* the new program */
 };
 
-#define RUNG_MOST_SHADOW_PASSES 1000000u
+#define RUNG_MOST_SHADOW_SCANS 1000000u
 #define RUNG_MOST_SHADOW_ROOM 4096u
 
-/* Prepares a shadow for `passes` scans of the schedule, with room for `room` runs of tasks that wait for
+/* Prepares a shadow for `scans` scans of the schedule, with room for `room` runs of tasks that wait for
  * rung_shadow_work: its time. Each takes the instance's memory block twice. Any thread: the instance may be scanned by
  * its own meanwhile, but must not be freed. RUNG_REFUSED: of another dialect or schedule. */
-RUNG_API int32_t rung_shadow_new(rung_instance* instance, rung_image* image, uint32_t passes, uint32_t room,
+RUNG_API int32_t rung_shadow_new(rung_instance* instance, rung_image* image, uint32_t scans, uint32_t room,
                                  rung_shadow** shadow);
 /* Ends it, too, in the thread of the instance; one that has ended (rung_instance_shadow with null) may be freed by any.
  * Null is allowed. Before its instance; no other thread uses the shadow. */

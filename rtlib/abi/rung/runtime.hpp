@@ -373,9 +373,9 @@ private:
 // A program beside the one that runs (rung_shadow_new); it ends before the instance does, in its thread.
 class Shadow {
 public:
-  Shadow(Instance& instance, const Image& image, uint32_t passes, uint32_t room = 64) {
+  Shadow(Instance& instance, const Image& image, uint32_t scans, uint32_t room = 64) {
     rung_shadow* shadow = nullptr;
-    check(rung_shadow_new(instance.handle(), image.handle(), passes, room, &shadow));
+    check(rung_shadow_new(instance.handle(), image.handle(), scans, room, &shadow));
     shadow_.reset(shadow);
   }
   rung_shadow* handle() const noexcept { return shadow_.get(); }
@@ -451,7 +451,7 @@ private:
   std::unique_ptr<rung_watch, Ends<rung_watch, rung_watch_free>> watch_;
 };
 
-// The passes of a watch as a file for wave viewers (rung_trace_new); it ends before the watch does.
+// The scans of a watch as a file for wave viewers (rung_trace_new); it ends before the watch does.
 class Trace {
 public:
   Trace(Watch& watch, const std::string& path) {
@@ -461,7 +461,7 @@ public:
   }
   rung_trace* handle() const noexcept { return trace_.get(); }
 
-  // False: no pass waited.
+  // False: no scan waited.
   bool write() { return check(rung_trace_write(handle())) == RUNG_OK; }
   // Throws where the file is not whole, which the destructor does not say.
   void end() { check(rung_trace_free(trace_.release())); }

@@ -24,7 +24,7 @@ void Axis::setPhysical(double place) {
   forgetPulse();
 }
 
-void Axis::letGo(double acceleration) {
+void Axis::brake(double acceleration) {
   forgetPulse();
   leave(acceleration);
 }

@@ -38,7 +38,7 @@ public:
   double placeOf(double measure) const { return measure - offset_; }
 
   // Its mover leaves it: it brakes to a standstill, until which its motion is reported.
-  void letGo(double acceleration);
+  void brake(double acceleration);
   void tick();
 
   // Runs in the direction of the signed speed (per minute) past the next zero pulse and brakes from there. A pulse

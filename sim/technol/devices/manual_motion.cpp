@@ -34,7 +34,7 @@ void ManualMotion::lock(bool locked) {
 
 void ManualMotion::drop(Axis& axis, uint32_t index) {
   clearBit(wheels_, index);
-  if (axis.mover == Mover::Manual) axis.letGo(axis.attributes.acceleration);
+  if (axis.mover == Mover::Manual) axis.brake(axis.attributes.acceleration);
 }
 
 void ManualMotion::activate(const AxisInputs& in, AxisRequests& requests) {

@@ -146,7 +146,7 @@ void ReferenceTravel::begin(Axis& axis) {
 void ReferenceTravel::end(Axis& axis, double acceleration) {
   if (!active()) return;
   phase_ = Phase::None;
-  axis.letGo(acceleration);
+  axis.brake(acceleration);
 }
 
 void ReferenceTravel::zeroHere(Axis& axis, double value) {

@@ -55,7 +55,7 @@ void SpindlePositioning::drop(Axis& axis) {
 
 void SpindlePositioning::end(Axis& axis, double acceleration) {
   phase_ = Phase::None;
-  axis.letGo(acceleration);
+  axis.brake(acceleration);
 }
 
 // After KRx has been seen: from its edge on (RefSwitch 1), while it is there (2), or always (l.7858-7866, l.7905).

@@ -111,7 +111,7 @@ TEST(PlcHost, ASliceRunsWhenItsTimeHasCome) {
     EXPECT_EQ(b.host->step(kMs), ms % 8 == 0 ? StepResult::Ran : StepResult::Waiting) << ms;
     EXPECT_EQ(b["count"].u32, static_cast<uint32_t>(ms / 8));
   }
-  EXPECT_EQ(b.host->state().passes, 10u);
+  EXPECT_EQ(b.host->state().scans, 10u);
   for (int i = 0; i < 8; ++i) b.host->step(3 * kMs); // 24 ms in steps that do not divide the period
   EXPECT_EQ(b["count"].u32, 13u);
   b.host->step(20 * kMs); // two are due and one runs; 4 ms are owed
@@ -144,10 +144,10 @@ out.on = { type = "bit", name = "N_ON" }
   ASSERT_THAT(b.errors, IsEmpty());
   b["i"].bit = true;
   b.host->step(5 * kMs);
-  EXPECT_EQ(b.host->state().passes, 0u);
+  EXPECT_EQ(b.host->state().scans, 0u);
   EXPECT_FALSE(b["o"].bit);
   b.host->step(5 * kMs);
-  EXPECT_EQ(b.host->state().passes, 1u);
+  EXPECT_EQ(b.host->state().scans, 1u);
   EXPECT_TRUE(b["o"].bit);
   EXPECT_TRUE(b["on"].bit); // the NC's constant signal, without a line in the map
 }
@@ -281,7 +281,7 @@ out.fc = { type = "float", name = "D0:2" }
   b["bad"].bit = false;
   EXPECT_EQ(b.host->step(8 * kMs), StepResult::Waiting);
   EXPECT_FALSE(b["o"].bit);
-  EXPECT_EQ(b.host->state().passes, 2u);
+  EXPECT_EQ(b.host->state().scans, 2u);
 }
 
 // The end code 6 of a window function that the CNC does not provide (man. l.8668-8676).
@@ -1012,7 +1012,7 @@ in.show = { type = "bit", name = "0056.18" }
   EXPECT_EQ(allocationsIn(nct, 500), 0);
   nct["show"].bit = false;
   EXPECT_EQ(allocationsIn(nct, 500), 0);
-  EXPECT_EQ(nct.host->state().passes, 200u);
+  EXPECT_EQ(nct.host->state().scans, 200u);
 }
 
 } // namespace

@@ -125,7 +125,7 @@ TEST_F(TechnolFaults, InModuleInit) {
     EXPECT_EQ(b.host->step(kMs), StepResult::Failed);
     EXPECT_THAT(reason(b), HasSubstr("halt-status 2"));
     EXPECT_FALSE(b["lamp"].bit);
-    EXPECT_EQ(b.host->state().passes, 0u);
+    EXPECT_EQ(b.host->state().scans, 0u);
     b.host->step(kMs, true);
     std::vector<std::string> reports;
     EXPECT_TRUE(b.host->serve(reports));
@@ -285,7 +285,7 @@ out.slices = { type = "u32", name = "FAST" }
   uint32_t slices = 0;
   for (int ms = 0; ms < 100; ++ms) {
     slices += b.host->step(kMs) == StepResult::Ran ? 1 : 0;
-    EXPECT_EQ(b.host->state().passes, slices / 5);
+    EXPECT_EQ(b.host->state().scans, slices / 5);
   }
   EXPECT_EQ(slices, 50u);
   EXPECT_EQ(b["cycles"].u32, 10u);

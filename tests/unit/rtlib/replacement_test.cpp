@@ -105,7 +105,7 @@ TEST_F(ReplacementTest, NotWithinAPass) {
   Instance instance(one.program);
   Replacement replacement(one.program, {two.program});
   instance.slot();
-  EXPECT_EQ(instance.replace(replacement), ReplaceResult::WithinPass);
+  EXPECT_EQ(instance.replace(replacement), ReplaceResult::WithinScan);
   EXPECT_EQ(&instance.program(), &one.program);
   instance.slot();
   EXPECT_EQ(instance.replace(replacement), ReplaceResult::Replaced);
@@ -134,7 +134,7 @@ TEST_F(ReplacementTest, AStoppedProgramStaysStopped) {
   instance.scan();
   ASSERT_TRUE(instance.faulted());
   Replacement replacement(two.program, {one.program});
-  ASSERT_EQ(instance.replace(replacement), ReplaceResult::Replaced) << "a pass that ended in a fault is over";
+  ASSERT_EQ(instance.replace(replacement), ReplaceResult::Replaced) << "a scan that ended in a fault is over";
   EXPECT_TRUE(instance.faulted());
   instance.scan();
   EXPECT_EQ(read(instance, "COUNT"), 200u);

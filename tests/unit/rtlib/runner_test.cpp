@@ -590,7 +590,7 @@ TEST_F(RunnerTest, HooksThatHaveWork) {
   EXPECT_EQ(runner->nowUs(), 140);
 }
 
-// Whoever begins a pass by slots and goes on with slices stays in its list.
+// Whoever begins a scan by slots and goes on with slices stays in its list.
 TEST_F(RunnerTest, SlicesFinishAPassThatSlotsBegan) {
   test.addChunk(step<0, RUNG_PC_DONE>);
   test.addTask("MAIN", 0);

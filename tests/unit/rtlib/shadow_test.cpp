@@ -67,11 +67,11 @@ struct Answering final : ScheduleHooks {
 };
 
 struct Pair {
-  Pair(rung_chunk_fn live, rung_chunk_fn next, uint32_t passes = 100, uint32_t room = 8) {
+  Pair(rung_chunk_fn live, rung_chunk_fn next, uint32_t scans = 100, uint32_t room = 8) {
     build(one, live);
     build(two, next);
     instance.emplace(one.program, &hooks);
-    shadow.emplace(one.program, Runnable{two.program}, &describe, passes, room);
+    shadow.emplace(one.program, Runnable{two.program}, &describe, scans, room);
     hooks.shadow = &*shadow;
     EXPECT_EQ(shadow->problem(), "");
   }

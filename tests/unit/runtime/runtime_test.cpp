@@ -164,7 +164,7 @@ TEST_F(Runtime, RunsByTheClockOfItsHost) {
   EXPECT_EQ(plc.state().wait_ns, 4'000'000);
   for (int ms = 0; ms < 16; ++ms) EXPECT_EQ(plc.runDue(1'000'000), RUNG_OK);
   EXPECT_EQ(plc.read<int>(count), 2);
-  EXPECT_EQ(plc.state().passes, 2u);
+  EXPECT_EQ(plc.state().scans, 2u);
   EXPECT_EQ(plc.state().now_us, 16000);
   EXPECT_EQ(plc.runDue(240'000'000), RUNG_OK) << "one pass, and the time of all";
   EXPECT_EQ(plc.state().missed, 30u - 1u);
@@ -472,7 +472,7 @@ TEST_F(Runtime, TouchingChangesNothing) {
   for (const int64_t until : {INT64_MIN, int64_t{0}, INT64_MAX})
     EXPECT_EQ(rung_instance_prefetch(plc.handle(), until), RUNG_OK);
   EXPECT_EQ(block, before);
-  EXPECT_EQ(plc.state().passes, 3u);
+  EXPECT_EQ(plc.state().scans, 3u);
 }
 
 // A disk that fails, and works again.

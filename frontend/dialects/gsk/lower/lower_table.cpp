@@ -28,13 +28,13 @@ ValueId unsignedWord(Lowering& f, size_t param, Type type) {
   return f.b.zextOrTrunc(type, f.load(f.dataType(), f.param(param).address));
 }
 
-// Where a way leads, counted from position 0 (§7.5).
-struct Way {
+// Where a path leads, counted from position 0 (§7.5).
+struct Path {
   ValueId reverse; // bit
   ValueId result;
 };
 
-Way wayOf(Lowering& f, ValueId count, ValueId current, ValueId target, ValueId base) {
+Path pathOf(Lowering& f, ValueId count, ValueId current, ValueId target, ValueId base) {
   ir::RungBuilder& b = f.b;
   const auto wrapped = [&](ValueId x) { return b.remU(x, count); };
   const ValueId one = b.constant(Type::I64, 1);
@@ -61,9 +61,9 @@ void lowerRotation(Lowering& f) {
     const ValueId current = b.sub(unsignedWord(f, 2, Type::I64), base);
     const ValueId target = b.sub(unsignedWord(f, 3, Type::I64), base);
     const auto turn = [&] {
-      const Way way = wayOf(f, count, current, target, base);
-      f.store(f.param(4).address, b.trunc(f.dataType(), way.result));
-      return way.reverse;
+      const Path path = pathOf(f, count, current, target, base);
+      f.store(f.param(4).address, b.trunc(f.dataType(), path.result));
+      return path.reverse;
     };
     // Never with a count of 0.
     return b.choose(b.and_(b.ltU(current, count), b.ltU(target, count)), turn, [&] { return f.oldOutput(); });

@@ -18,13 +18,13 @@ struct Ring {
   ValueId current, goal, start, end;
 };
 
-struct Way {
+struct Path {
   ValueId toGo;
   ValueId negative;
 };
 
 // All four are at least 0 and in range, so no difference overflows; only the number of positions may be 2^31.
-Way findWay(Lowering& box, const Ring& ring) {
+Path findPath(Lowering& box, const Ring& ring) {
   RungBuilder& b = box.b;
   const ValueId one = b.i32(1), zero = b.i32(0);
   const ValueId positions = b.add(b.sub(ring.end, ring.start), one);
@@ -64,9 +64,9 @@ ValueId lowerRotation(Lowering& box) {
     valid = memory.both(valid, b.and_(b.leS(ring.start, position), b.leS(position, ring.end)));
   b.when(edge, [&] {
     guarded(box, valid, [&] {
-      const Way way = findWay(box, ring);
-      memory.storeWord(target, way.toGo);
-      b.slotStore(output, way.negative);
+      const Path path = findPath(box, ring);
+      memory.storeWord(target, path.toGo);
+      b.slotStore(output, path.negative);
       memory.setErrorFlag(false);
       return ValueId{};
     });

@@ -35,7 +35,7 @@ void Operation::reset() {
   homed_ = 0;
 }
 
-void Operation::beforePass(runtime::Instance& instance) {
+void Operation::beforeScan(runtime::Instance& instance) {
   const bool moves = get(instance, places_->moves) && !get(instance, places_->byHand);
   const bool runs = moves || get(instance, places_->runs);
   const bool stopped = get(instance, places_->stopped);

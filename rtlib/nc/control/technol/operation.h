@@ -52,8 +52,8 @@ public:
   void use(const Places& places) { places_ = &places; }
 
   // Before a scan, when the host has written its signals.
-  void beforePass(runtime::Instance& instance);
-  // After a slice, for a host that has called beforePass.
+  void beforeScan(runtime::Instance& instance);
+  // After a slice, for a host that has called beforeScan.
   void afterSlice(runtime::Instance& instance) const;
 
 private:

@@ -57,7 +57,7 @@ void TechnolControl::onFault(runtime::Instance& instance) { technol::runWith(ins
 
 void TechnolControl::beforeSlice(runtime::Instance& instance) {
   driven_ = true;
-  if (instance.atListStart() && !instance.stopped()) operation_.beforePass(instance);
+  if (instance.atListStart() && !instance.stopped()) operation_.beforeScan(instance);
 }
 
 void TechnolControl::afterSlice(runtime::Instance& instance) {

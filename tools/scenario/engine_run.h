@@ -41,10 +41,10 @@ struct ReplaceReport {
 
 // One engine's run of a program in its simulated NC, and what a scenario has yet to look at.
 
-class Lane {
+class EngineRun {
 public:
-  // Files that the NC's configuration names lie in `folder`. The engine outlives the lane.
-  Lane(runtime::Engine& engine, std::string folder, sim::Clock clock);
+  // Files that the NC's configuration names lie in `folder`. The engine outlives the run.
+  EngineRun(runtime::Engine& engine, std::string folder, sim::Clock clock);
 
   std::string_view engineName() const { return engine_->name(); }
   sim::Machine& machine() { return machine_; }
@@ -62,7 +62,7 @@ public:
   // Switches the program on; what was to be looked at is dropped. Throws as Machine::powerOn.
   void powerOn(nc::PowerOn kind);
   // Another program of the same dialect takes over from the running one. "" or why it cannot, and nothing has happened;
-  // its engine outlives the lane.
+  // its engine outlives the run.
   std::string replace(runtime::Engine& next, const compiler::GetCompiled& compiled, ReplaceReport& report);
   // Runs the NC and the program: a scan, a slot, the fast part or a slice.
   using Advance = void (sim::Machine::*)();

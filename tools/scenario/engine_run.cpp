@@ -1,5 +1,5 @@
 // One engine's run.
-#include "tools/scenario/lane.h"
+#include "tools/scenario/engine_run.h"
 
 #include <fmt/format.h>
 
@@ -26,7 +26,7 @@ void serveWith(rung::Image& image, const runtime::Engine& engine, const compiler
 
 } // namespace
 
-Lane::Lane(runtime::Engine& engine, std::string folder, sim::Clock clock)
+EngineRun::EngineRun(runtime::Engine& engine, std::string folder, sim::Clock clock)
     : engine_(&engine),
       machine_(engine.program(), engine.context(), sim::makeSimulatedNc(engine.program().dialect), clock) {
   nc().setFolder(std::move(folder));
@@ -34,16 +34,17 @@ Lane::Lane(runtime::Engine& engine, std::string folder, sim::Clock clock)
   requests_.report(nc());
 }
 
-void Lane::serve(const compiler::GetCompiled& compiled) { serveWith(machine_.image(), *engine_, compiled); }
+void EngineRun::serve(const compiler::GetCompiled& compiled) { serveWith(machine_.image(), *engine_, compiled); }
 
-void Lane::powerOn(nc::PowerOn kind) {
+void EngineRun::powerOn(nc::PowerOn kind) {
   machine_.powerOn(kind);
   takeLog();
   unreadLog_.clear();
   requests_.clear();
 }
 
-std::string Lane::replace(runtime::Engine& next, const compiler::GetCompiled& compiled, ReplaceReport& report) try {
+std::string EngineRun::replace(runtime::Engine& next, const compiler::GetCompiled& compiled,
+                               ReplaceReport& report) try {
   const rung_program& former = instance().program();
   rung::Image image = rung::Image::adopt(next.program(), next.context());
   serveWith(image, next, compiled);
@@ -62,17 +63,17 @@ std::string Lane::replace(runtime::Engine& next, const compiler::GetCompiled& co
   return error.what();
 }
 
-void Lane::advance(Advance how) {
+void EngineRun::advance(Advance how) {
   (machine_.*how)();
   takeLog();
 }
 
-void Lane::takeLog() {
+void EngineRun::takeLog() {
   for (std::string& line : nc().takeLog()) unreadLog_.push_back(std::move(line));
   if (std::ssize(unreadLog_) > 2 * kMostUnread) unreadLog_.erase(unreadLog_.begin(), unreadLog_.end() - kMostUnread);
 }
 
-void Lane::ignore() {
+void EngineRun::ignore() {
   core::ServiceRequest request;
   while (instance().services().take(request)) instance().services().complete(nc().control().refuse(request));
   unreadLog_.clear();

@@ -19,7 +19,7 @@ namespace rung::ir {
 //
 //   fold, reuse   What changed a rung may have made more to do, for all passes. Reuse itself is done, but where it took
 //                 a store out of a loop: a loop that writes nothing hides nothing that was read before it.
-//   dead          Done. It takes away what nobody uses, stores apart: no operand and no value that is there already.
+//   dead          Done. It takes away what is not used, except stores: no operand and no value that is there already.
 //   transient     It takes stores away: folding asks for none. Their operands may be unused now, and loops without
 //                 them may write nothing.
 //   versions      A rung that gets versions is a new one.

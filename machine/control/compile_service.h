@@ -53,7 +53,7 @@ private:
   void require(const Peer& peer) const;
 
   PlcAccess& plc_;
-  uint32_t owner_ = 0; // number of the client; 0: nobody
+  uint32_t owner_ = 0; // number of the client; 0: none
   Clock::time_point lastUse_;
   std::string packed_;
   std::unique_ptr<compile::Compilation> compilation_;

@@ -26,7 +26,7 @@ namespace rung::control {
 class Controller final : public Handler {
 public:
   // `image` is what the host began with. `log`, which outlives this, gets what the program and its host report, and
-  // every change that somebody has made.
+  // every change that a client has made.
   Controller(std::string host, host::PlcHost& plc, const Image& image, Log& log,
              std::unique_ptr<Programs> programs = programsOfMachine());
   ~Controller() override; // before the plc

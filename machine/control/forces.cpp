@@ -22,7 +22,7 @@ struct Forces::HeldCell {
   }
 };
 
-// Of the set of forces, as somebody has asked for it.
+// A change of the set of forces, as a client requested it.
 struct Forces::Change {
   Peer peer;
   std::vector<HeldCell> before;

@@ -23,7 +23,7 @@ public:
 
   // With its results; throws Refused where it is not done.
   host::Command post(host::Command command, std::chrono::milliseconds time = host::PlcHost::kPatience);
-  // Nothing where nobody scans the program.
+  // Nothing while no thread scans the program.
   std::optional<rung_state> state();
   std::vector<rung_force_info> activeForces();
 

@@ -73,7 +73,7 @@ host::Socket listenAt(const std::string& path) {
   unlink(path.c_str()); // of a host that was killed
   host::Socket made(socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
   if (made.number() < 0) refuse(path);
-  // Whoever may use the folder may connect; then the user is asked for.
+  // Every user who may use the folder may connect; the permissions of the user are checked then.
   if (bind(made.number(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0 ||
       chmod(path.c_str(), 0600) != 0 || listen(made.number(), static_cast<int>(Server::kMostPeers)) != 0)
     refuse(path);

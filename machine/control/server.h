@@ -54,7 +54,7 @@ private:
 class Sink {
 public:
   virtual ~Sink() = default;
-  // To one of those who have asked; to nobody where that one has gone.
+  // To the client with this number; drops the event if that client has gone.
   virtual void send(uint32_t peer, const nlohmann::json& event) = 0;
   // The answer that a handler has not given before. Until then nothing else that the client sends is looked at.
   virtual void answer(uint32_t peer, const nlohmann::json& answer) = 0;

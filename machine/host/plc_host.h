@@ -87,7 +87,7 @@ public:
   static constexpr std::chrono::milliseconds kPatience{1000};
   // One thread at a time, any. False: the program has shown nothing since.
   bool nextMessage(rung_message_info& message) const noexcept;
-  // What the program asks of a CNC that somebody serves (`live().served`), for one thread at a time. False: no
+  // The program's next request to a CNC that a client serves (`live().served`), for one thread at a time. False: no
   // request waits.
   Live& live() noexcept { return live_; }
   bool nextRequest(rung_request& request) const noexcept;

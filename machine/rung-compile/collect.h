@@ -1,4 +1,4 @@
-// Reads the sources of a program, and what they include, with the rights of whoever runs this.
+// Reads the sources of a program, and what they include, with the rights of the process that runs it.
 #pragma once
 #include <optional>
 #include <string>

@@ -41,7 +41,8 @@ bool makeOutput() {
   return file >= 0 && dup2(file, STDOUT_FILENO) >= 0 && close(file) == 0;
 }
 
-// What the compiler opens and loads, it does in its first compilation: before anything is read that somebody sent.
+// Whatever the compiler opens and loads, it opens and loads in its first compilation: before it reads anything that a
+// client sent.
 std::string warmUp() {
   if (!makeOutput()) return std::string("cannot make a memory file: ") + std::strerror(errno);
   const std::string name = "warm-up.pmc";
@@ -66,7 +67,7 @@ bool readInput(std::string& bytes, size_t most) {
   return used <= most;
 }
 
-// "" or why not. Nobody can change it from then on.
+// "" or why not. The file is sealed: no process can change it from then on.
 std::string writeImage(std::string_view bytes) {
   constexpr int kSeals = F_SEAL_WRITE | F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_SEAL;
   if (runtime::writeAll(compile::kImageFile, bytes) && fcntl(compile::kImageFile, F_ADD_SEALS, kSeals) == 0) return "";

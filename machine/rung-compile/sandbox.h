@@ -1,4 +1,4 @@
-// What is left to a process that compiles for somebody else: its memory, and the files that are open.
+// Restricts a process that compiles for another user to its memory and the files that are open.
 #pragma once
 #include <string>
 

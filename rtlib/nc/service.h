@@ -1,5 +1,5 @@
 // The services that the programs of a dialect ask of their NC and their control, as tables: a row a service. The
-// compiler puts the text of a row into a program's table; whoever loads a program finds the row again by that text, and
+// compiler puts the text of a row into a program's table; the loader finds the row again by that text, and
 // from then on the service is the number of its row. A service whose arguments or results change is another one.
 #pragma once
 #include <array>

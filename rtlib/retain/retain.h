@@ -43,8 +43,8 @@ public:
   // `base` is a path without ending; bytes saved under another layout or size are not `found`. The disk outlives it.
   RetainStore(std::string base, RetainLayout layout, uint32_t size, Disk& disk = systemDisk());
 
-  // From now until this store ends no other one saves here, in no process. Whoever loads in order to save later locks
-  // first; `save` does it too. False: `error` says why.
+  // From now until this store ends no other store saves here, in any process. A caller that loads in order to save
+  // later locks first; `save` does it too. False: `error` says why.
   bool lock(std::string& error);
   RetainImage load();
   bool save(std::span<const uint8_t> bytes, std::string& error) { return save(bytes, layout_, error); }
@@ -170,7 +170,7 @@ private:
       nullptr}; // for the saver: one of before with the newest offer, and the present one
   std::atomic<RetainChannel*> current_;
   uint64_t lastTicket_ = 0, formerNewest_ = 0; // the scan thread's
-  std::mutex looking_;                         // held while somebody looks
+  std::mutex looking_;                         // held while a thread looks
   Image pending_;
   std::vector<uint8_t> onDisk_; // where it is known
   uint64_t onDiskLayout_ = 0;

@@ -68,7 +68,7 @@ void becomeHelper() noexcept {
 
 namespace {
 
-// A step counts from when it is due, however long before that the thread is awake.
+// A step is measured from its due time, however long before that the thread wakes.
 void waitFor(Steps& steps, int64_t dueNs, int64_t earlyNs) noexcept {
   sleepUntil(dueNs - earlyNs);
   if (earlyNs == 0) return;

@@ -12,7 +12,7 @@ namespace rung::frontend::technol {
 
 class Marking {
 public:
-  // `marks` may be null: nobody asks.
+  // `marks` may be null: marks are not requested.
   Marking(const SourceProgram& program, Emitter& emitter, ir::Marks* marks)
       : program_(program), emitter_(emitter), marks_(marks) {}
 

@@ -55,8 +55,8 @@ struct rung_instance {
                 std::unique_ptr<rung::api::Environment> environment, bool controlAlone);
   ~rung_instance();
 
-  // Process-image copies leave out what no rung accesses, until the host finds or binds something there. Environments see all
-  // of the memory.
+  // Process-image copies leave out what no rung accesses, until the host finds or binds something there. Environments
+  // see all of the memory.
   void beginLeavingOut() noexcept {
     running.setNeededCopiesOnly(controlAlone && !running.neededCopies().leftOut.empty() && !seesLeftOut());
   }

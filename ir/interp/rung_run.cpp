@@ -181,6 +181,22 @@ void RungRun::evaluate(const Op& op) {
   give(op, evalPure(op.code, op.type, typeOf(rung_, arg(rung_, op, 0)), args));
 }
 
+size_t RungRun::beginIf(const Op& op, size_t index) {
+  if (in(op, 0) != 0) return index + 1;
+  const size_t end = regions_[index].end;
+  return rung_.ops[end].code == OpCode::Else ? end + 1 : end;
+}
+
+size_t RungRun::beginLoop(const Op& op, size_t index) {
+  if (op.count == 0) {
+    giveArgs(op, rung_.ops[regions_[index].end], 0);
+    return regions_[index].end + 1;
+  }
+  giveArgs(op, op, 1);
+  give(op, 0);
+  return index + 1;
+}
+
 // The number of the operation that comes next.
 // NOLINTNEXTLINE(readability-function-size): a case for every operation
 size_t RungRun::step(const Op& op, size_t index) {
@@ -210,23 +226,11 @@ size_t RungRun::step(const Op& op, size_t index) {
       writeBytes(slotOffset(op), op.type, in(op, 0));
     break;
   case OpCode::Now: give(op, static_cast<uint64_t>(ctx_.now_us)); break;
+  case OpCode::If: return beginIf(op, index);
   // When the branch above an else has run, its yields become the results of the endif.
-  case OpCode::If:
-    if (in(op, 0) == 0) {
-      const size_t end = regions_[index].end;
-      return rung_.ops[end].code == OpCode::Else ? end + 1 : end;
-    }
-    break;
   case OpCode::Else: giveArgs(op, rung_.ops[regions_[index].end], 0); return regions_[index].end + 1;
   case OpCode::EndIf: giveArgs(op, op, 0); break;
-  case OpCode::Loop:
-    if (op.count == 0) {
-      giveArgs(op, rung_.ops[regions_[index].end], 0);
-      return regions_[index].end + 1;
-    }
-    giveArgs(op, op, 1);
-    give(op, 0);
-    break;
+  case OpCode::Loop: return beginLoop(op, index);
   case OpCode::EndLoop: return endLoop(op, index);
   case OpCode::Message: message(op); break;
   case OpCode::ServiceRequest: request(op); break;

@@ -43,6 +43,8 @@ private:
   void loadBitAt(const Op& op);
   void storeBitAt(const Op& op);
 
+  size_t beginIf(const Op& op, size_t index);
+  size_t beginLoop(const Op& op, size_t index);
   size_t endLoop(const Op& op, size_t index);
   void evaluate(const Op& op);
   void message(const Op& op);

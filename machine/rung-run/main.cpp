@@ -261,18 +261,7 @@ int run(const Options& options) try {
   return cli::kEnvironment;
 }
 
-} // namespace
-
-int main(int argc, char** argv) {
-  cli::CommandLine app(
-      {.name = "rung-run",
-       .description = "Run a PLC program on the computer's clock, with the pins of a mapping file",
-       .exitStatus =
-           "0 ok, 1 the mapping file is wrong, 2 wrong usage, 3 a file cannot be read, or the program cannot run",
-       .guide = "docs/rung-run.md",
-       .seeAlso = {"rungctl(1)", "rungc(1)", "rung-map(5)", "rung_hal(9)"}});
-  Options options;
-  cli::Command command = app.root();
+void addOptions(cli::Command& command, Options& options) {
   command
       .option("PROGRAM", options.program,
               "Compiled program (.so), source file or project folder; sources are compiled first")
@@ -300,6 +289,11 @@ int main(int argc, char** argv) {
   command.option("--priority", options.priority, "Real-time priority 1 to 99 (SCHED_FIFO); default: normal scheduling")
       .between(1, 99);
   command.flag("--lock-memory", options.lockMemory, "Lock all memory in RAM");
+  command.flag("--unsealed", options.unsealed, "Load a program without a seal");
+}
+
+// What is around the program besides its pins.
+void addDeviceOptions(cli::Command& command, Options& options) {
   const cli::Option simulate =
       command.flag("--simulate", options.simulate, "Simulate the control of the program's dialect");
   command
@@ -313,7 +307,22 @@ int main(int argc, char** argv) {
       .excludes(simulate);
   command.option("--config", options.config,
                  "KEY=VALUE: configure TECHNOL's devices, or the simulated control; may be repeated");
-  command.flag("--unsealed", options.unsealed, "Load a program without a seal");
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  cli::CommandLine app(
+      {.name = "rung-run",
+       .description = "Run a PLC program on the computer's clock, with the pins of a mapping file",
+       .exitStatus =
+           "0 ok, 1 the mapping file is wrong, 2 wrong usage, 3 a file cannot be read, or the program cannot run",
+       .guide = "docs/rung-run.md",
+       .seeAlso = {"rungctl(1)", "rungc(1)", "rung-map(5)", "rung_hal(9)"}});
+  Options options;
+  cli::Command command = app.root();
+  addOptions(command, options);
+  addDeviceOptions(command, options);
   command.onParsed([&command, &options] {
     if (!command.given("--retain") || !options.retain.empty()) return cli::kOk;
     print("--retain: found an empty name, expected FILE");

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <fstream>
-#include <functional>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -357,19 +356,114 @@ int hosts(const Words& words) try {
   return fail(problem.what());
 }
 
+// What a command line may have after the command, and what the command does with a connection to the host.
+struct Row {
+  const char* name;
+  const char* description;
+  void (*options)(cli::Command&, Words&); // null: none
+  int (*run)(Client&, const Words&);
+};
+
+void namesOption(cli::Command& command, Words& words) {
+  command.option("NAME", words.names, "Variables: names or addresses of the program").required();
+}
+
+void valueOptions(cli::Command& command, Words& words) {
+  command.option("NAME", words.name, "Variable: a name or an address of the program").required();
+  command.option("VALUE", words.value, "on, off, true, false or a number; also 0x1F").required();
+}
+
+void reloadOptions(cli::Command& command, Words& words) {
+  command
+      .option("FILE", words.files,
+              "Compiled program (.so), or source files in order, or a project folder, which the host compiles")
+      .required();
+  command.flag("--profile", words.profile, "With sources: count and time every rung");
+  command
+      .option("--shadow", words.shadow,
+              "First run it as a shadow beside the running program for this many scans, and compare outputs")
+      .between(1u, 100000u);
+  command.flag("--yes", words.yes, "Reload even if state is lost or outputs differ");
+  command.flag("--late", words.late, "Reload even if a slice may take longer than its period");
+}
+
+constexpr Row kCommands[] = {
+    {"status", "Show whether the program runs, its scans and its faults", nullptr, status},
+    {"messages", "Show messages of the program with their times, and faults and restarts",
+     [](cli::Command& command, Words& words) {
+       command.flag("-f,--follow", words.follow, "Keep printing new messages until Ctrl+C");
+       command.flag("--on", words.on, "Show only messages that are on now");
+       command.flag("--history", words.all, "Include messages from before the start of the host, up to 1000");
+     },
+     messages},
+    {"get", "Show values at the end of a scan", namesOption, get},
+    {"watch", "Show values whenever they change, until Ctrl+C",
+     [](cli::Command& command, Words& words) {
+       namesOption(command, words);
+       command.flag("--all", words.all, "Show every scan, instead of about 50 a second");
+     },
+     watch},
+    {"trace", "Record values of every scan in a VCD file for wave viewers",
+     [](cli::Command& command, Words& words) {
+       namesOption(command, words);
+       command.option("-o,--output", words.file, "File to write, FILE.vcd").required();
+       command.option("--for", words.seconds, "Seconds to record; default: until Ctrl+C").between(0.001, 1e6);
+     },
+     trace},
+    {"set", "Write a value to a variable once", valueOptions, set},
+    {"event", "Trigger an event of the control that rung-run simulates",
+     [](cli::Command& command, Words& words) {
+       command.option("NAME", words.name, "Name of the event, as in scenarios").required();
+       command.option("KEY=VALUE", words.names, "Parameters of the event");
+     },
+     event},
+    {"force", "Force a variable to a value", valueOptions, force},
+    {"unforce", "Release a forced variable",
+     [](cli::Command& command, Words& words) {
+       command.option("NAME", words.name, "Variable to release, by the name under which it was forced");
+       command.flag("--all", words.all, "Release all forced variables");
+     },
+     unforce},
+    {"forced", "List forced variables", nullptr, forced},
+    {"reload", "Replace the running program between two scans", reloadOptions,
+     [](Client& client, const Words& words) { return reload(client, words, gStop); }},
+    {"rollback", "Return to the program before the last reload; a second rollback returns to the reloaded one", nullptr,
+     rollback},
+    {"stop", "Stop the program; its outputs stay as they are", nullptr,
+     [](Client& client, const Words& words) { return simple(client, words, "stop", "stopped"); }},
+    {"start", "Continue a stopped program", nullptr,
+     [](Client& client, const Words& words) { return simple(client, words, "start", "running"); }},
+    {"reset", "Restart the program after a fault", nullptr,
+     [](Client& client, const Words& words) { return simple(client, words, "reset", "restarted"); }},
+    {"map", "Show the pins of the mapping file with their values", nullptr, map},
+    {"profile", "Show the time of each rung of a program built with --profile",
+     [](cli::Command& command, Words& words) {
+       command.option("--by", words.by, "Sort rungs by total time or by longest execution")
+           .oneOf({"time", "longest"})
+           .showDefault();
+       command.option("--top", words.top, "Number of rungs to show").between(1u, 10000u).showDefault();
+       command.flag("--reset", words.reset, "Reset the counters afterwards");
+     },
+     profile},
+    {"serve", "Answer the program's requests to its CNC: protocol lines on standard input and output",
+     [](cli::Command& command, Words& words) {
+       command
+           .option("--alive", words.seconds, "Seconds of silence after which the host considers this connection dead")
+           .between(0.1, 60.0);
+     },
+     serve},
+};
+
 class Commands {
 public:
   Commands(cli::CommandLine& app, int& status) : app_(app), status_(status) { addCommon(app.root(), before_); }
 
-  using Run = std::function<int(Client&, const Words&)>;
-  // Adds one; `words` gives it its own words.
-  void add(const char* name, const char* description, const std::function<void(cli::Command&, Words&)>& words,
-           Run run) {
-    cli::Command command = app_.add(name, description);
+  void add(const Row& row) {
+    cli::Command command = app_.add(row.name, row.description);
     auto taken = std::make_shared<Words>();
-    words(command, *taken);
+    if (row.options != nullptr) row.options(command, *taken);
     addCommon(command, taken->common);
-    command.onRun([this, taken, run = std::move(run)] {
+    command.onRun([this, taken, run = row.run] {
       taken->common.asJson = taken->common.asJson || before_.asJson;
       if (taken->common.host.empty()) taken->common.host = before_.host;
       status_ = begin(*taken, run);
@@ -390,7 +484,7 @@ private:
     command.option("--host", common.host, "Name of the host; default: the only running one");
     command.flag("--json", common.asJson, "Print the answer as JSON");
   }
-  static int begin(const Words& words, const Run& run) try {
+  static int begin(const Words& words, int (*run)(Client&, const Words&)) try {
     Client client(words.common.host);
     return run(client, words);
   } catch (const std::exception& problem) {
@@ -401,105 +495,6 @@ private:
   int& status_;
   Common before_; // the command
 };
-
-// NOLINTNEXTLINE(readability-function-size): a command after the other
-void addAll(Commands& commands) {
-  const auto none = [](cli::Command&, Words&) {};
-  const auto names = [](cli::Command& command, Words& words) {
-    command.option("NAME", words.names, "Variables: names or addresses of the program").required();
-  };
-  const auto oneValue = [](cli::Command& command, Words& words) {
-    command.option("NAME", words.name, "Variable: a name or an address of the program").required();
-    command.option("VALUE", words.value, "on, off, true, false or a number; also 0x1F").required();
-  };
-  commands.addHosts();
-  commands.add("status", "Show whether the program runs, its scans and its faults", none, status);
-  commands.add(
-      "messages", "Show messages of the program with their times, and faults and restarts",
-      [](cli::Command& command, Words& words) {
-        command.flag("-f,--follow", words.follow, "Keep printing new messages until Ctrl+C");
-        command.flag("--on", words.on, "Show only messages that are on now");
-        command.flag("--history", words.all, "Include messages from before the start of the host, up to 1000");
-      },
-      messages);
-  commands.add("get", "Show values at the end of a scan", names, get);
-  commands.add(
-      "watch", "Show values whenever they change, until Ctrl+C",
-      [&](cli::Command& command, Words& words) {
-        names(command, words);
-        command.flag("--all", words.all, "Show every scan, instead of about 50 a second");
-      },
-      watch);
-  commands.add(
-      "trace", "Record values of every scan in a VCD file for wave viewers",
-      [&](cli::Command& command, Words& words) {
-        names(command, words);
-        command.option("-o,--output", words.file, "File to write, FILE.vcd").required();
-        command.option("--for", words.seconds, "Seconds to record; default: until Ctrl+C").between(0.001, 1e6);
-      },
-      trace);
-  commands.add("set", "Write a value to a variable once", oneValue, set);
-  commands.add(
-      "event", "Trigger an event of the control that rung-run simulates",
-      [](cli::Command& command, Words& words) {
-        command.option("NAME", words.name, "Name of the event, as in scenarios").required();
-        command.option("KEY=VALUE", words.names, "Parameters of the event");
-      },
-      event);
-  commands.add("force", "Force a variable to a value", oneValue, force);
-  commands.add(
-      "unforce", "Release a forced variable",
-      [](cli::Command& command, Words& words) {
-        command.option("NAME", words.name, "Variable to release, by the name under which it was forced");
-        command.flag("--all", words.all, "Release all forced variables");
-      },
-      unforce);
-  commands.add("forced", "List forced variables", none, forced);
-  commands.add(
-      "reload", "Replace the running program between two scans",
-      [](cli::Command& command, Words& words) {
-        command
-            .option("FILE", words.files,
-                    "Compiled program (.so), or source files in order, or a project folder, which the host compiles")
-            .required();
-        command.flag("--profile", words.profile, "With sources: count and time every rung");
-        command
-            .option("--shadow", words.shadow,
-                    "First run it as a shadow beside the running program for this many scans, and compare outputs")
-            .between(1u, 100000u);
-        command.flag("--yes", words.yes, "Reload even if state is lost or outputs differ");
-        command.flag("--late", words.late, "Reload even if a slice may take longer than its period");
-      },
-      [](Client& client, const Words& words) { return reload(client, words, gStop); });
-  commands.add("rollback",
-               "Return to the program before the last reload; a second rollback returns to the reloaded one", none,
-               rollback);
-  commands.add("stop", "Stop the program; its outputs stay as they are", none,
-               [](Client& client, const Words& words) { return simple(client, words, "stop", "stopped"); });
-  commands.add("start", "Continue a stopped program", none,
-               [](Client& client, const Words& words) { return simple(client, words, "start", "running"); });
-  commands.add("reset", "Restart the program after a fault", none,
-               [](Client& client, const Words& words) { return simple(client, words, "reset", "restarted"); });
-  commands.add("map", "Show the pins of the mapping file with their values", none, map);
-  commands.add(
-      "profile", "Show the time of each rung of a program built with --profile",
-      [](cli::Command& command, Words& words) {
-        command.option("--by", words.by, "Sort rungs by total time or by longest execution")
-            .oneOf({"time", "longest"})
-            .showDefault();
-        command.option("--top", words.top, "Number of rungs to show").between(1u, 10000u).showDefault();
-        command.flag("--reset", words.reset, "Reset the counters afterwards");
-      },
-      profile);
-  commands.add(
-      "serve", "Answer the program's requests to its CNC: protocol lines on standard input and output",
-      [](cli::Command& command, Words& words) {
-        command
-            .option("--alive", words.seconds, "Seconds of silence after which the host considers this connection dead")
-            .between(0.1, 60.0);
-      },
-      serve);
-}
 
 } // namespace
 
@@ -516,7 +511,8 @@ int main(int argc, char** argv) {
        .seeAlso = {"rung-run(1)", "rung_hal(9)", "rungc(1)"}});
   int status = cli::kOk;
   Commands commands(app, status);
-  addAll(commands);
+  commands.addHosts();
+  for (const Row& row : kCommands) commands.add(row);
   cli::addUsage(app, status);
   const std::optional<int> decided = app.run(argc, argv, [&app](const cli::WrongWords& words) {
     std::cerr << cli::wrongUsage(app, words);

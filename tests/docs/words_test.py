@@ -4,17 +4,21 @@ or a host includes, and every text and comment in the code. words_test.py"""
 import bisect
 import functools
 import re
+import sys
 import unittest
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
+sys.path.insert(0, str(ROOT / "tools/dev"))
+import folders
+
 # Files that are read as they are.
 PLACES = ("README.md", "CONTRIBUTING.md", "docs/*.md", "docs/dialects/*.md", "docs/reference/*.md", "examples/**/*.md",
           "ir/support/diag/*.def", "tools/rungc/templates/**/*",
           "rtlib/abi/rung/*", "rtlib/**/*.h", "machine/*/*.h", "tools/*/*.h", "ir/core/*.h")
 # Code whose string literals are read, as messages and tables of the reference are made of them, and its comments.
-CODE = tuple(f"{folder}/**/*.{kind}" for folder in ("codegen", "compiler", "frontend", "ir", "machine", "rtlib", "sim", "tools") for kind in ("cpp", "h"))
+CODE = tuple(f"{folder}/**/*.{kind}" for folder in folders.PRODUCT for kind in ("cpp", "h"))
 TOKEN = re.compile(r"""(?P<comment>//[^\n]*|/\*.*?\*/)|(?P<include>^[ ]*\#[ ]*include[^\n]*)
                      |(?P<number>\b[0-9](?:[\w.]|'(?=\w))*|'(?:[^'\\\n]|\\.)+')
                      |R"(?P<mark>[^(\s]*)\((?P<raw>.*?)\)(?P=mark)"|"(?P<text>(?:[^"\\\n]|\\.)*)"|(?P<code>\S)""",

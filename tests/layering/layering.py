@@ -5,6 +5,9 @@ import re
 import sys
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tools/dev"))
+import folders
+
 # What a host sees of the runtime: its headers, and what works with files and the clock of this computer.
 HOST = ("rtlib/abi", "rtlib/text", "rtlib/load", "rtlib/run/clock.h", "rtlib/run/realtime.h")
 
@@ -140,14 +143,14 @@ def line_of(text, at):
 
 
 def check_includes(root):
-    for path, text in lines(root, *(folder for folder in LAYERS if "/" not in folder)):
+    for path, text in lines(root, *folders.PRODUCT):
         for match in INCLUDE.finditer(text):
             if problem := offence(root, path, match.group(1)):
                 yield f"{path}:{line_of(text, match.start(1))}: {problem}"
 
 
 def check_namespaces(root):
-    for path, text in lines(root, *(folder for folder in LAYERS if "/" not in folder)):
+    for path, text in lines(root, *folders.PRODUCT):
         folder = longest(path, NAMESPACES)
         if folder is None:
             continue

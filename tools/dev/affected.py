@@ -9,16 +9,17 @@ import os
 import re
 from pathlib import Path
 
+import folders
+
 # What decides how everything is built or chosen.
 EVERYTHING = ("CMakeLists.txt", "*/CMakeLists.txt", "*.cmake", "cmake/*", "CMakePresets.json", "dev", ".ci/*", "tools/dev/*")
 # What only tests read that look at the whole tree (READS .).
 HARMLESS = ("*.md", "LICENSE", ".gitignore", "*/.gitignore", ".clang-tidy", ".clang-format", "debian/*", "packaging/*")
-# Where a file of C or C++ that nothing is built from is no known case, whoever reads it.
-PRODUCT = ("codegen/", "compiler/", "frontend/", "ir/", "machine/", "rtlib/", "sim/", "tools/")
+# Where a file of C or C++ that nothing is built from is no known case, no matter which test reads it.
+PRODUCT = tuple(f"{folder}/" for folder in folders.PRODUCT)
 INCLUDED = (".h", ".hpp", ".hxx", ".def", ".inc")
 COMPILED = (".c", ".cc", ".cpp")
-TOPS = ("codegen", "compiler", "debian", "docs", "examples", "frontend", "ir", "machine", "packaging", "rtlib", "sim", "tests", "tools")
-NAMED = re.compile(r"(?<![\w./-])(?:[A-Z]+\.md|LICENSE|(?:%s)(?:/[\w.+-]+)*)(?=(/?))" % "|".join(TOPS))
+NAMED = re.compile(r"(?<![\w./-])(?:[A-Z]+\.md|LICENSE|(?:%s)(?:/[\w.+-]+)*)(?=(/?))" % "|".join(folders.ALL))
 INCLUDE = re.compile(r'^\s*#\s*include.*$', re.MULTILINE)
 LITERAL = re.compile(r'"((?:[^"\\\n]|\\.)*)"|\'((?:[^\'\\\n]|\\.)*)\'')
 

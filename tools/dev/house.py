@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Draws docs/house.svg, the parts of the project with their sizes and who uses whom, from what CMake knows of the build.
 
-    house.py BUILD            draws it; configures BUILD, a build folder, so that CMake answers
+    house.py BUILD            draws it; BUILD is a build folder
     house.py BUILD --check    exit 1 and the difference where the picture shows other parts or other uses than the build
 """
 import json
@@ -10,11 +10,14 @@ import subprocess
 import sys
 from pathlib import Path
 
+import folders
+
 ROOT = Path(__file__).resolve().parents[2]
 PICTURE = ROOT / "docs/house.svg"
 # Parts of the picture; a folder belongs to the one with the longest fitting name. Two programs of machine read sources.
 READERS = "machine/rung-compile, rungctl"
 PARTS = ("tools", READERS, "machine", "sim", "compiler", "codegen", "frontend", "ir", "rtlib")
+assert {*PARTS} == {*folders.PRODUCT, READERS}, "a folder at the top has no place in the picture"
 FOLDERS = {**{part: part for part in PARTS if part != READERS}, "machine/rung-compile": READERS, "machine/rungctl": READERS}
 SUFFIXES = {".h", ".hpp", ".cpp", ".c", ".def", ".py"}
 WIDTH, GAP, LINE, ROW_GAP, MARGIN = 1000, 18, 17, 58, 14
@@ -28,10 +31,11 @@ def fail(text):
 def targets(build):
     """{identity: target} of CMake's file API."""
     folder = build / ".cmake/api/v1"
-    (folder / "query").mkdir(parents=True, exist_ok=True)
-    (folder / "query/codemodel-v2").touch()
-    if subprocess.run(["cmake", str(build)], stdout=subprocess.DEVNULL).returncode != 0:
-        fail(f"{build} cannot be configured")
+    if not (folder / "query/codemodel-v2").exists():  # ./dev asks before it configures
+        (folder / "query").mkdir(parents=True, exist_ok=True)
+        (folder / "query/codemodel-v2").touch()
+        if subprocess.run(["cmake", str(build)], stdout=subprocess.DEVNULL).returncode != 0:
+            fail(f"{build} cannot be configured")
     reply = max((folder / "reply").glob("codemodel-v2-*.json"), key=lambda path: path.stat().st_mtime)
     listed = json.loads(reply.read_text())["configurations"][0]["targets"]
     return {one["id"]: json.loads((reply.parent / one["jsonFile"]).read_text()) for one in listed}
@@ -73,7 +77,7 @@ def direct(found):
 def sizes():
     """{part: {folder in it: lines}}"""
     found = {part: {} for part in PARTS}
-    for name in subprocess.run(["git", "-C", str(ROOT), "ls-files", *sorted({folder.split("/")[0] for folder in FOLDERS})], check=True,
+    for name in subprocess.run(["git", "-C", str(ROOT), "ls-files", *folders.PRODUCT], check=True,
                                capture_output=True, text=True).stdout.split("\n"):
         path = Path(name)
         part = part_of(str(path.parent)) if path.suffix in SUFFIXES else None
@@ -104,18 +108,18 @@ def shown(lines):
     return f"{lines / 1000:.1f}k".replace(".0k", "k")
 
 
-def box(part, folders, x, y, width, height):
-    total = sum(folders.values())
+def box(part, inside, x, y, width, height):
+    total = sum(inside.values())
     out = [f'<rect x="{x}" y="{y}" width="{width}" height="{height}" rx="6"/>',
            f'<text class="name" x="{x + 12}" y="{y + 21}">{part} <tspan class="lines">{shown(total)} lines</tspan></text>']
-    for number, text in enumerate(wrapped(folders, width)):
+    for number, text in enumerate(wrapped(inside, width)):
         out.append(f'<text class="folders" x="{x + 12}" y="{y + 42 + number * LINE}">{text}</text>')
     return out
 
 
-def wrapped(folders, width):
-    """Its folders with their sizes, as lines that fit."""
-    texts = [f"{name} {shown(lines)}" for name, lines in sorted(folders.items()) if name]
+def wrapped(inside, width):
+    """Its inside with their sizes, as lines that fit."""
+    texts = [f"{name} {shown(lines)}" for name, lines in sorted(inside.items()) if name]
     lines = [""]
     for text in texts:
         if lines[-1] and (len(lines[-1]) + len(text) + 3) * 7.0 > width - 24:
@@ -124,15 +128,15 @@ def wrapped(folders, width):
     return lines if texts else []
 
 
-def draw(edges, folders):
+def draw(edges, inside):
     places, out, y = {}, [], MARGIN
     for row in rows(edges):
         width = (WIDTH - 2 * MARGIN - GAP * (len(row) - 1)) // len(row)
-        height = max(34 + LINE * len(wrapped(folders[part], width)) for part in row)
+        height = max(34 + LINE * len(wrapped(inside[part], width)) for part in row)
         for number, part in enumerate(row):
             x = MARGIN + number * (width + GAP)
             places[part] = (x, y, width, height)
-            out += box(part, folders[part], x, y, width, height)
+            out += box(part, inside[part], x, y, width, height)
         y += height + ROW_GAP
     arrows = []
     for part, used_parts in edges.items():

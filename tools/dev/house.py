@@ -118,7 +118,7 @@ def box(part, inside, x, y, width, height):
 
 
 def wrapped(inside, width):
-    """Its inside with their sizes, as lines that fit."""
+    """The folders inside it with their sizes, as lines that fit."""
     texts = [f"{name} {shown(lines)}" for name, lines in sorted(inside.items()) if name]
     lines = [""]
     for text in texts:

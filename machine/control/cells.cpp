@@ -65,7 +65,7 @@ struct Cells::Watching {
     for (size_t i = 0; i < values.size(); ++i) list.push_back(valueOf(i));
     sent = values;
     begun = true;
-    return {{"event", "values"}, {"scan", sample.pass}, {"us", sample.now_us}, {"lost", sample.lost}, {"values", list}};
+    return {{"event", "values"}, {"scan", sample.scan}, {"us", sample.now_us}, {"lost", sample.lost}, {"values", list}};
   }
 
   rung_instance* of;
@@ -150,7 +150,7 @@ json Cells::get(const Peer&, const json& request) {
   }
   json values = json::object();
   for (size_t i = 0; i < names.size(); ++i) values[names[i]] = toJson(once.types[i], once.values[i]);
-  return {{"scan", sample.pass}, {"us", sample.now_us}, {"values", values}};
+  return {{"scan", sample.scan}, {"us", sample.now_us}, {"values", values}};
 }
 
 json Cells::watch(const Peer& peer, const json& request) {

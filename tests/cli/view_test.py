@@ -130,7 +130,7 @@ class View(unittest.TestCase):
             self.assertIn(wanted, page.texts)
         text = Path(self.html).read_text()
         self.assertIn("<title>Lathe &lt;7&gt;</title>", text)
-        self.assertIn('content:"Revision C2, 1 March"', text)
+        self.assertIn('content: "Revision C2, 1 March"', text)
         self.assertIn("<h1>lathe</h1>", (self.page(*LATHE), Path(self.html).read_text())[1], "the name of the project")
         self.assertIn("<h1>nct-lathe</h1>", (self.page(*LATHE, "--no-project"), Path(self.html).read_text())[1])
         self.assertIn("<h1>mill.pmc</h1>", (self.page("examples/gsk-mill/mill.pmc", "--no-project"), Path(self.html).read_text())[1])

@@ -869,7 +869,7 @@ TEST_F(Runtime, CellsAreWatched) {
   scan(plc, 5);
   const auto newest = watch.newest();
   ASSERT_TRUE(newest);
-  EXPECT_EQ(newest->head.pass, 5u);
+  EXPECT_EQ(newest->head.scan, 5u);
   EXPECT_EQ(newest->head.now_us, 40000);
   EXPECT_EQ(newest->values[0].integer, 5);
   EXPECT_EQ(newest->values[1].real, 2.5);
@@ -883,7 +883,7 @@ TEST_F(Runtime, CellsAreWatched) {
   scan(plc);
   const auto after = watch.next();
   ASSERT_TRUE(after);
-  EXPECT_EQ(after->head.pass, 6u);
+  EXPECT_EQ(after->head.scan, 6u);
   EXPECT_EQ(after->head.lost, 2u);
 
   const rung_cell note = plc.find("NOTE"), none = 77;
@@ -924,9 +924,9 @@ TEST_F(Runtime, ASampleIsOfOnePass) {
       ++seen;
       ASSERT_EQ(static_cast<uint8_t>(newest->values[0].integer), static_cast<uint8_t>(newest->values[1].integer));
       while (const auto next = watch.next()) {
-        ASSERT_GT(next->head.pass, last);
-        ASSERT_EQ(static_cast<uint8_t>(next->head.pass), static_cast<uint8_t>(next->values[0].integer));
-        last = next->head.pass;
+        ASSERT_GT(next->head.scan, last);
+        ASSERT_EQ(static_cast<uint8_t>(next->head.scan), static_cast<uint8_t>(next->values[0].integer));
+        last = next->head.scan;
       }
     }
   }

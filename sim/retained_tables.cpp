@@ -52,7 +52,7 @@ uint32_t Relocation::service(uint32_t number) const {
 }
 
 void Relocation::renumber(core::ServiceRequest& request) const {
-  const nc::ServiceRow* row = nc::serviceOf(from_->dialect, request.name.kind);
+  const nc::ServiceRow* row = nc::serviceOf(from_->dialect, request.name->kind);
   const auto block = row == nullptr ? std::nullopt : row->arguments.find("block");
   request.service = service(request.service);
   if (block && request.service != RUNG_NONE) {

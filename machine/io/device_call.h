@@ -75,7 +75,7 @@ private:
 using nc::technol::Device;
 using nc::technol::ServiceKind;
 
-inline ServiceKind kindOf(const core::ServiceRequest& request) { return static_cast<ServiceKind>(request.name.kind); }
+inline ServiceKind kindOf(const core::ServiceRequest& request) { return static_cast<ServiceKind>(request.name->kind); }
 
 class DeviceCall {
 public:

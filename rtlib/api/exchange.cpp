@@ -8,7 +8,7 @@
 namespace rung::api {
 
 rung_request shown(const core::ServiceRequest& request, const nc::Control& control) noexcept {
-  const core::ServiceName& name = request.service == nc::Control::kOwnService ? control.ownService() : request.name;
+  const core::ServiceName name = request.service == nc::Control::kOwnService ? control.ownService() : *request.name;
   rung_request out{.size = sizeof out,
                    .ticket = request.ticket,
                    .service = name.text,

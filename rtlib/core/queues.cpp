@@ -52,7 +52,7 @@ uint32_t ServiceQueue::request(uint32_t service, const int64_t* args, uint32_t c
   ServiceRequest request;
   request.ticket = freeTicket();
   request.service = service;
-  if (service < nameCount_) request.name = names_[service];
+  if (service < nameCount_) request.name = &names_[service];
   request.argCount = bounded(count);
   for (uint32_t i = 0; i < request.argCount; ++i) request.args[i] = args[i];
 

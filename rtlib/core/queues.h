@@ -15,16 +15,18 @@ namespace rung::core {
 inline constexpr uint32_t kMessageCapacity = 256;
 using MessageQueue = FixedRing<rung_message, kMessageCapacity>;
 
-// What a service of a program is, whatever program runs when its request is read.
+// A service, described independently of the program that requests it, which may have been replaced when the request is
+// read.
 struct ServiceName {
   const char* text = "";
   uint32_t kind = 0; // a number that all programs of the dialect have for it; 0: unknown
 };
+inline constexpr ServiceName kUnknownService;
 
 struct ServiceRequest {
   uint32_t ticket = 0;
-  uint32_t service = 0; // in rung_program::services
-  ServiceName name;     // see setServices
+  uint32_t service = 0;                       // in rung_program::services
+  const ServiceName* name = &kUnknownService; // outlives the queue, see setServices
   uint32_t argCount = 0;
   int64_t args[RUNG_MAX_SERVICE_ARGS] = {};
   // The name follows from the service.

@@ -132,7 +132,7 @@ private:
   }
 
   static std::optional<gsk::WindowRequest> windowRequest(const core::ServiceRequest& request) {
-    const auto kind = static_cast<nc::gsk::ServiceKind>(request.name.kind);
+    const auto kind = static_cast<nc::gsk::ServiceKind>(request.name->kind);
     gsk::WindowRequest window;
     window.write = kind == nc::gsk::ServiceKind::WriteWindow;
     if (!window.write && kind != nc::gsk::ServiceKind::ReadWindow) return std::nullopt;

@@ -112,7 +112,7 @@ void Simulator::timeSlice(runtime::Instance& instance, bool cycle) {
 
 namespace {
 
-ServiceKind kindOf(const core::ServiceRequest& request) { return static_cast<ServiceKind>(request.name.kind); }
+ServiceKind kindOf(const core::ServiceRequest& request) { return static_cast<ServiceKind>(request.name->kind); }
 bool isOfArrays(ServiceKind kind) { return kind == ServiceKind::ReadArray || kind == ServiceKind::WriteArray; }
 
 } // namespace

@@ -110,7 +110,7 @@ void driveAnswered(runtime::Instance& instance, int64_t axis, std::string_view b
 
 void showLateAnswer(runtime::Instance& instance, const core::ServiceRequest& request, std::string_view bytes) {
   using nc::technol::ServiceKind;
-  const auto kind = static_cast<ServiceKind>(request.name.kind);
+  const auto kind = static_cast<ServiceKind>(request.name->kind);
   constexpr int64_t kMostAxes = 16;
   const auto isAxis = [](int64_t axis) { return axis >= 1 && axis <= kMostAxes; };
   if (kind == ServiceKind::ToAxis && isAxis(request.args[4])) positioned(instance, request.args[4]);

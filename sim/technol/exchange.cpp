@@ -77,7 +77,7 @@ void Exchange::define(runtime::Instance& instance, const core::ServiceRequest& r
 
 bool Exchange::respond(runtime::Instance& instance, const core::ServiceRequest& request, core::ServiceReply& reply) {
   using nc::technol::ServiceKind;
-  const auto kind = static_cast<ServiceKind>(request.name.kind);
+  const auto kind = static_cast<ServiceKind>(request.name->kind);
   if (kind != ServiceKind::Define && kind != ServiceKind::UpdateInput) return false;
   reply.ticket = request.ticket;
   reply.state = RUNG_SERVICE_DONE;

@@ -34,13 +34,13 @@ nc::ServiceRow serviceRow(const rung_program& program, uint32_t service) {
 namespace {
 
 ServiceSignature signatureOf(const Instance& instance, const core::ServiceRequest& request) {
-  const nc::ServiceRow* row = nc::serviceOf(instance.program().dialect, request.name.kind);
-  return ServiceSignature(row != nullptr ? *row : nc::ServiceRow(nc::kUnknownService, request.name.text));
+  const nc::ServiceRow* row = nc::serviceOf(instance.program().dialect, request.name->kind);
+  return ServiceSignature(row != nullptr ? *row : nc::ServiceRow(nc::kUnknownService, request.name->text));
 }
 
 // Null: it asks no device.
 const DeviceService* deviceServiceOf(const Instance& instance, const core::ServiceRequest& request) {
-  return nc::technol::deviceServiceOf(instance.program().dialect, request.name.kind);
+  return nc::technol::deviceServiceOf(instance.program().dialect, request.name->kind);
 }
 
 bool fetchesBytes(const Instance& instance, const core::ServiceRequest& request) {

@@ -187,7 +187,7 @@ std::optional<runtime::Ref> GskControl::signal(const rung_program& program, std:
 
 core::ServiceReply GskControl::refuse(const core::ServiceRequest& request) const noexcept {
   core::ServiceReply reply{.ticket = request.ticket, .state = RUNG_SERVICE_DONE, .results = {gsk::kWindowNotProvided}};
-  switch (static_cast<gsk::ServiceKind>(request.name.kind)) {
+  switch (static_cast<gsk::ServiceKind>(request.name->kind)) {
   case gsk::ServiceKind::ReadWindow: reply.resultCount = 2; return reply;
   case gsk::ServiceKind::WriteWindow: reply.resultCount = 1; return reply;
   case gsk::ServiceKind::MoveAxis:

@@ -20,7 +20,7 @@ sockaddr_un socketAddress(const std::string& path);
 // Returns whether a host listens at a socket; a host that was killed leaves its socket. Throws as socketAddress.
 bool isServed(const std::string& path);
 
-// Checks a host's name: letters, digits, '-', '_' and '.', the last three not at the beginning. Returns "", or the
+// Checks a host's name: at most 60 letters, digits, '-', '_' and '.', no '.' at the beginning. Returns "", or the
 // error.
 std::string wrongHostName(const std::string& name);
 struct Place {

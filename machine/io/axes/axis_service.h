@@ -44,7 +44,7 @@ public:
   void step(int64_t ns) noexcept;
   DriveInputs& inputs(uint32_t axis) { return axes_[axis - 1].in; }
   DriveOutputs outputs(uint32_t axis) const;
-  // At the end of a scan: reads the cells by which the program permits motions until the next scan.
+  // At the end of a scan: reads the permits and VAZBA_x of the program, which apply until the next scan.
   void take(const core::Memory& memory, const AxisCells& cells) noexcept;
   // Before MODULE_INPUT: writes motions and positions to the cells.
   void show(const core::Memory& memory, const AxisCells& cells) noexcept;

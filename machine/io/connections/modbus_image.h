@@ -41,8 +41,8 @@ public:
   // Throws std::bad_alloc. Inputs have their safe values at first.
   explicit ModbusImage(Exchange& exchange);
 
-  // Checks a request: every address must belong to a pin; written addresses must belong to inputs, contain complete
-  // values, and no NaN.
+  // Checks a request: every address must belong to a pin; written addresses must belong to inputs and contain complete,
+  // finite values.
   Exception check(const Request& request) const;
   // Copies the newest outputs, before a client reads them.
   void refreshOutputs();
@@ -77,7 +77,7 @@ private:
 
 // Integers are rounded and limited to the format.
 void toRegisters(const ExchangedPin& pin, double value, uint16_t* registers) noexcept;
-// The result is limited to the type of the pin. Nothing: the registers contain a NaN.
+// The result is limited to the type of the pin. Nothing: the registers do not contain a finite number.
 std::optional<double> fromRegisters(const ExchangedPin& pin, const uint16_t* registers) noexcept;
 
 // Native byte order; a bit is one byte.

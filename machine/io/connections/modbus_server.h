@@ -24,7 +24,7 @@ public:
 private:
   struct Client {
     host::Socket socket;
-    int64_t heardNs = 0;    // time of the last complete message, or of the connection
+    int64_t heardNs = 0;    // time of the last complete message, or of the beginning of the current one
     int64_t refilledNs = 0; // when `allowance` was last increased
     double allowance = 1;   // number of requests that may be answered now
     size_t size = 0;        // received bytes of the current message

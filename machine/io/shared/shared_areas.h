@@ -105,7 +105,7 @@ bool isHead(const SharedAreas::Head& head) noexcept;
 bool mayBeMadeAnew(const SharedAreas::Head& head) noexcept;
 
 // Unlocks a mutex. `asLocked` is a copy of the mutex made after locking it. Broken: the mutex was overwritten since
-// then, so another program may have locked it as well; it has been made anew.
+// then, so another program may have locked it as well; it has been repaired.
 AreaResult unlockArea(pthread_mutex_t& mutex, const pthread_mutex_t& asLocked) noexcept;
 
 } // namespace rung::io

@@ -65,7 +65,7 @@ void ForcedCodeMaker::serve(const Image& image) {
   described.release = [](void* user) { delete static_cast<Shared*>(user); };
   described.user = maker.get();
   const int32_t status = rung_image_serve(image.handle(), &described);
-  if (status == RUNG_WRONG_STATE) return; // already attached
+  if (status == RUNG_WRONG_STATE) return; // the image already has a maker
   check(status);
   [[maybe_unused]] const Shared* images = maker.release();
 }

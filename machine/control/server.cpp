@@ -73,7 +73,7 @@ host::Socket listenAt(const std::string& path) {
   unlink(path.c_str()); // left by a host that was killed
   host::Socket made(socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
   if (made.number() < 0) refuse(path);
-  // The socket is private to its user; the identity of each client is checked when it connects.
+  // Any user with access to the folder may be able to connect; the identity of each client is checked after that.
   if (bind(made.number(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0 ||
       chmod(path.c_str(), 0600) != 0 || listen(made.number(), static_cast<int>(Server::kMostPeers)) != 0)
     refuse(path);

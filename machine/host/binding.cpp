@@ -374,7 +374,7 @@ private:
     return place;
   }
 
-  // Whether the name is a real stored in words.
+  // Whether the name has words in which the program stores a real number.
   bool inWords(const Entry& entry) const {
     if (entry.type != PinType::Float || isPosition(entry.name)) return false;
     Place place;

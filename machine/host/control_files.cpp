@@ -61,7 +61,7 @@ private:
   Element inChannel(Element parent, std::string_view name) const;
   Element childOf(std::string_view name, std::string_view expected, Element child);
   void checkText();
-  // Reports a duplicate; returns whether the identifier is new.
+  // Returns whether the identifier is new; reports a duplicate. An empty one has already been reported.
   bool isNew(std::string_view what, const std::string& id, const FilePlace& at);
 
   void beginMessage(const char** attributes);

@@ -264,7 +264,7 @@ PlcHost::Losses PlcHost::lossesBy(const rung_replacement* replacement) const {
                                   : ", at " + std::string(now->address) + ", is gone"));
     rung_cell cell = 0;
     if (toProgram(link.direction) && rung_instance_find(plc_.handle(), link.name.c_str(), RUNG_WRITE, &cell) == RUNG_OK)
-      losses.dead.push_back(cell); // bound, and therefore never forced
+      losses.dead.push_back(cell); // the handle of a bound cell, which is not released
   }
   return losses;
 }

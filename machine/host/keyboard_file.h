@@ -1,9 +1,9 @@
 // Reads the files that define the keys of a keyboard (KbdConfig, man. ch. 11, l.16745-16905).
 //
-// <KeyboardConfig>
-// <KeyConfig ScanCode="0x03" Type="Normal" PlcCommand="CMD_LUBR1" RtmCommand="RTMID_MMM_SEL00"></KeyConfig>
-// <KeyConfig ScanCode="0x6A"><Function No="1" PlcCommand="CMD_PERF"></Function></KeyConfig>
-// </KeyboardConfig>
+//   <KeyboardConfig>
+//     <KeyConfig ScanCode="0x03" Type="Normal" PlcCommand="CMD_LUBR1" RtmCommand="RTMID_MMM_SEL00"></KeyConfig>
+//     <KeyConfig ScanCode="0x6A"><Function No="1" PlcCommand="CMD_PERF"></Function></KeyConfig>
+//   </KeyboardConfig>
 //
 // Elements that concern only screens (VirtualKey, Command, Dialog, ...) are ignored.
 #pragma once

@@ -85,8 +85,7 @@ inline constexpr std::string_view kVerdictSources = "sources";   // the text: th
 inline constexpr size_t kMostReport = size_t{256} << 10; // bytes of warnings and errors
 inline constexpr unsigned kMostProcessorSeconds = 30;
 inline constexpr size_t kMostMemory = size_t{2} << 30; // address space
-inline constexpr size_t kMostImage = size_t{64} << 20; // bytes of a program file, and of each file that the process
-                                                       // writes
+inline constexpr size_t kMostImage = size_t{64} << 20; // bytes of a program, and of each file that the process writes
 
 // The program that a host starts with: a compiled file, or sources that are compiled first.
 

@@ -140,8 +140,7 @@ void Services::work(Sink& sink) {
 // Informs a provider that no longer serves before anything moves again.
 void Services::checkService(Sink& sink) {
   const int64_t silentNs = plc_.clock().nowNs() - heardNs_;
-  if (!plc_.live().served.load(std::memory_order_acquire)) { // the program was restarted: waiting requests are not from
-                                                             // the new run
+  if (!plc_.live().served.load(std::memory_order_acquire)) { // waiting requests are from an earlier run
     sink.send(std::exchange(provider_, 0), {{"event", "unserved"}});
     plc_.live().known.store(false, std::memory_order_release);
     waiting_.clear();

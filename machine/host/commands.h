@@ -26,8 +26,7 @@ struct Command {
     Start,
     Restart, // after a fault
     Act,     // calls `act` with `actor`
-    Profile, // copies at most `count` counters, of rungs from `index` on, to `profiles`; returns the number of rungs in
-             // `count`
+    Profile, // copies up to `count` counters, of rungs from `index` on, to `profiles`; `count`: number of rungs
     ClearProfile,
   };
   Kind kind = Kind::State;

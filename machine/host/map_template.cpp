@@ -68,8 +68,7 @@ public:
       : instance_(instance), program_(program), sides_(instance, program) {}
 
   void add(const UsedName& used) {
-    const std::optional<rung_cell_info> written =
-        cellInfo(instance_, used.name, RUNG_WRITE); // the place that a pin would write
+    const std::optional<rung_cell_info> written = cellInfo(instance_, used.name, RUNG_WRITE); // written by a pin
     const std::optional<rung_cell_info> found = cellInfo(instance_, used.name, RUNG_READ);
     if (!found || !names_.insert(used.name).second) return;
     const rung_cell_info& info = *found;

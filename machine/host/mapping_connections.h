@@ -88,8 +88,7 @@ private:
 
   Reading& reading_;
   std::vector<Row> rows_;
-  std::vector<std::optional<text::Position>> sources_; // by pin: the position of the entry that already feeds this
-                                                       // input
+  std::vector<std::optional<text::Position>> sources_; // by pin: position of the entry that feeds this input
 };
 
 } // namespace rung::host

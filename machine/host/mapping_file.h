@@ -49,8 +49,7 @@ struct Link {
   double scale = 1; // float: program units per HAL unit; finite, not 0
   // If not empty: pins for the bits of the cell, lowest first; `pin` is the first.
   std::vector<uint32_t> bits;
-  std::optional<double> value; // initial value of a parameter; parameters without it and io pins begin with the
-                               // program's value
+  std::optional<double> value; // initial value of a parameter; if empty, and for io pins, the program's value
   text::Position at;           // position of the name
 };
 

@@ -110,8 +110,7 @@ void PlcHost::bindValues() {
 
 template <class Link>
 void PlcHost::bind(const Link& link, Value& value, rung_direction direction, double scale) {
-  constexpr rung_host_type kTypes[] = {RUNG_HOST_BOOL, RUNG_HOST_I32, RUNG_HOST_U32,
-                                       RUNG_HOST_F64}; // indexed by PinType
+  constexpr rung_host_type kTypes[] = {RUNG_HOST_BOOL, RUNG_HOST_I32, RUNG_HOST_U32, RUNG_HOST_F64}; // by PinType
   const uint32_t words = link.words ? uint32_t{RUNG_BOUND_REAL} : 0;
   const rung_variable variable{link.name.c_str(), &value, kTypes[static_cast<size_t>(link.type)], direction | words,
                                scale};
@@ -176,8 +175,7 @@ std::string PlcHost::stopText(const rung_fault_info& fault) const {
 
 // Reports each fault once.
 void PlcHost::reportFault() {
-  const std::optional<rung_fault_info> info = reported_ ? std::nullopt : fault(); // or the instance belongs to the scan
-                                                                                  // thread
+  const std::optional<rung_fault_info> info = reported_ ? std::nullopt : fault(); // or the scan thread has it
   if (!info) return;
   reported_ = true;
   reports_.push_back(stopText(*info));
@@ -414,8 +412,7 @@ CommandSlot::Outcome PlcHost::execute(Command& command) noexcept {
   if (status == RUNG_OK || status == RUNG_EMPTY) return {status};
   const bool isOff = now == State::Stopped && (state().flags & RUNG_STATE_ON) == 0; // a restart has failed
   if (status == RUNG_FAULTED || isOff) return {status, "a fault has stopped the program: a reset restarts it"};
-  return {status == RUNG_WRONG_THREAD ? int32_t{RUNG_LATER} : status,
-          rung_error_text()}; // the service thread has the instance
+  return {status == RUNG_WRONG_THREAD ? int32_t{RUNG_LATER} : status, rung_error_text()}; // the service thread has it
 }
 
 // An input without a pin must not keep a value that permits something. If the new program cannot take over now, the pin

@@ -34,8 +34,7 @@ public:
   using NewInstance = std::function<Instance(const Image& image, const rung_instance_options& options)>;
   struct Options {
     std::string retain;                              // retained memory is in FILE.a and FILE.b; "": cold start
-    NewInstance newInstance = {};                    // makes instances; empty: the program runs without a simulated
-                                                     // control
+    NewInstance newInstance = {};                    // makes instances; empty: without devices or a simulation
     runtime::Clock* clock = &runtime::systemClock(); // for everything but steps; must outlive the host
     uint32_t catchUp = 0;                            // as in rung_instance_options
     const char* reset = "pin reset rises";           // how to restart a stopped program, for messages to users

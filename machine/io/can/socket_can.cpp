@@ -97,8 +97,7 @@ void SocketCan::close() {
 
 // Packets are not kept while the bus is off: an old command to a machine must not be sent when the bus returns.
 bool SocketCan::transmit(const CanPacket& packet) {
-  const uint32_t loss = losses_.load(std::memory_order_acquire); // read before the state, so that it is current if the
-                                                                 // state is active
+  const uint32_t loss = losses_.load(std::memory_order_acquire); // before the state: current if that is active
   return state() == BusState::Active && toBus_.push({onBus(packet), loss});
 }
 

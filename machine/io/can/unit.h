@@ -115,8 +115,7 @@ private:
   std::array<uint8_t, kUnitOutputs> sent_{};   // outputs as sent
   uint8_t registered_ = 0;                     // error register 1001h as the unit reported it
   uint8_t mode_ = 0;                           // the mode requested from the unit
-  uint32_t silentMs_ = 0;  // since inputs were received; a unit in preparation need not send any, but they end a
-                           // time-out
+  uint32_t silentMs_ = 0;  // since the last inputs; not required from a unit in preparation, but they end a time-out
   uint32_t unheardMs_ = 0; // since any packet was received
   bool timedOut_ = false;
   bool isPrepared_ = false, isStarted_ = false; // it has left, and has joined, the exchange of process data

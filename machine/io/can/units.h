@@ -76,8 +76,7 @@ private:
 
   std::vector<CanUnit> units_;                                // by group and board
   std::array<uint8_t, kCanNode + 1> numbers_{};               // position in `units_`, from 1, by node; 0: no unit
-  std::array<std::array<uint8_t, 8>, kHandwheels> display_{}; // values from the last scan in which the program was not
-                                                              // writing to them
+  std::array<std::array<uint8_t, 8>, kHandwheels> display_{}; // last complete values
   UnitMessages messages_;
   uint32_t syncPeriod_ = 1, sinceSync_ = 0;
   bool started_ = false;

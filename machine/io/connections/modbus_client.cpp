@@ -191,8 +191,7 @@ bool ModbusClient::read() {
 
 bool ModbusClient::readBlock(const Block& block) {
   constexpr uint8_t kFunctions[] = {MODBUS_FC_READ_COILS, MODBUS_FC_READ_DISCRETE_INPUTS,
-                                    MODBUS_FC_READ_HOLDING_REGISTERS,
-                                    MODBUS_FC_READ_INPUT_REGISTERS}; // indexed by Area
+                                    MODBUS_FC_READ_HOLDING_REGISTERS, MODBUS_FC_READ_INPUT_REGISTERS}; // by Area
   const bool words = isRegister(block.area);
   begin(kFunctions[static_cast<size_t>(block.area)], block);
   constexpr size_t kDataAt = 2; // after function code and number of bytes
@@ -241,8 +240,7 @@ bool ModbusClient::answersLater() {
   for (int64_t left = kTimes * answerNs_; left > 0 && !answers && !*ending_; left -= kLookNs)
     answers = poll(&waiting, 1, static_cast<int>(kLookNs / kNsInMs)) > 0;
   char byte = 0;
-  return answers && recv(waiting.fd, &byte, 1, MSG_PEEK | MSG_DONTWAIT) > 0; // otherwise the device has closed the
-                                                                             // connection
+  return answers && recv(waiting.fd, &byte, 1, MSG_PEEK | MSG_DONTWAIT) > 0; // false: connection closed
 }
 
 } // namespace rung::io

@@ -99,8 +99,7 @@ public:
   const EthercatImage& image() const { return image_; }
 
   // Events; they return "", or the error.
-  std::string setError(uint32_t slave, uint32_t code); // error code of the slave's mailbox from now on; 0: normal
-                                                       // answers
+  std::string setError(uint32_t slave, uint32_t code); // of its mailbox, from now on; 0: normal answers
   std::string setSilent(uint32_t slave, bool isSilent);
   std::string fault(uint32_t slave, uint32_t code); // of a CiA 402 drive: sets 603Fh
   void setLink(bool isUp) { states_.setLink(isUp); }

@@ -38,8 +38,7 @@ struct RtmCommand {
   bool manual = false;          // IMMM: also switches manual motion on
   AxisMask plus = 0, minus = 0; // for Move, Select (plus)
   bool rapid = false;           // ...RT
-  int32_t value = 0;            // step in µm; +1 or -1 for up, inc, plus and down, dec, minus; 1 on, 0 off; number of a
-                                // wheel
+  int32_t value = 0;            // step in µm; +1 for up, inc, plus; -1 for down, dec, minus; 1 on, 0 off; a wheel
 };
 
 // Parses a command. Axes are given by their number from 0 (MOVE03), or by the letters X, Y, Z in `letters`; a missing

@@ -1,5 +1,5 @@
-// Objects of simulated EtherCAT slaves: how the configuration of a simulated control writes them, and the elements of
-// an IDN as a mailbox gives them. What a control answers about them is its own.
+// Objects of simulated EtherCAT slaves: their text in the configuration of a simulated control, and the elements of an
+// IDN in a mailbox answer. Each control has its own answers to requests.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -13,13 +13,13 @@ namespace rung::sim {
 struct EthercatObject {
   uint32_t slave = 0;
   bool isIdn = false;
-  uint32_t index = 0; // or IDN
-  uint32_t sub = 0;   // or drive
+  uint32_t index = 0; // index or IDN
+  uint32_t sub = 0;   // subindex or drive
   uint32_t bytes = 4; // 1 to 8
   uint64_t initial = 0;
   uint64_t value = 0;
   bool mayRead = true, mayWrite = true;
-  // Limits of an IDN; where they are signed, so is its value.
+  // Limits of an IDN; if they are signed, so is its value.
   uint64_t least = 0, most = UINT64_MAX;
   bool isSigned = false;
 };
@@ -28,22 +28,21 @@ struct EthercatProtocols {
   bool coe = false, soe = false, voe = false;
 };
 
-// All bits of so many bytes.
+// A number of this many bytes with all bits set.
 constexpr uint64_t onesOf(uint32_t bytes) { return bytes >= 8 ? UINT64_MAX : (uint64_t{1} << 8 * bytes) - 1; }
-// Little-endian; at most the first eight bytes.
+// Reads at most the first eight bytes.
 uint64_t littleEndian(std::span<const uint8_t> bytes);
-// 12 or 0x0C.
+// Parses 12 or 0x0C.
 std::optional<uint64_t> unsignedIn(std::string_view text);
 
-// Each gives "" or what is wrong.
-// "coe+soe".
+// "coe+soe". This and the next two functions return "", or the error.
 std::string parseProtocols(std::string_view text, EthercatProtocols& protocols);
 // "1.coe.0x6041.0", "2.soe.47.1": slave, index and subindex, IDN and drive.
 std::string parseObjectPlace(std::string_view text, EthercatObject& object);
 // "0x237/2", "-5/2", "100": value and bytes; 4 bytes if not given.
 std::string parseObjectValue(std::string_view text, EthercatObject& object);
 
-// Bytes that are put together in a buffer; what does not fit is cut.
+// Data assembled in a buffer; bytes that do not fit are dropped.
 struct MailboxData {
   std::span<uint8_t> room;
   size_t size = 0;
@@ -51,9 +50,9 @@ struct MailboxData {
   void append(uint64_t value, uint32_t bytes);
 };
 
-// Elements of an IDN, by the bits of the flags that a request names them with.
+// Elements of an IDN, by the bit number in a request's flags.
 enum SoeElement : uint32_t { kState, kName, kAttribute, kUnit, kMinimum, kMaximum, kValue, kDefault };
-// Appends those that `flags` names, from bit 0 up. The name is "IDN12345", the unit a text without letters.
+// Appends the elements in `flags`, from bit 0 up. The name is "IDN12345", the unit an empty text.
 void appendSoeElements(const EthercatObject& idn, uint32_t flags, MailboxData& to);
 
 } // namespace rung::sim

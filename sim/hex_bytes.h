@@ -1,4 +1,4 @@
-// Bytes as scenarios write them: "02 55".
+// Bytes in scenarios: "02 55".
 #pragma once
 #include <optional>
 #include <string_view>
@@ -7,8 +7,8 @@
 
 namespace rung::sim {
 
-// Pairs of hexadecimal digits with blanks between them, as a string or a vector of bytes; nothing where it is something
-// else.
+// Parses pairs of hexadecimal digits, with or without blanks between them, to a string or a vector of bytes; nothing if
+// the text is something else.
 template <class Bytes>
 std::optional<Bytes> bytesOfHex(std::string_view text) {
   Bytes bytes;

@@ -1,5 +1,5 @@
-// What the part programs of all dialects consist of: blocks that end with ";" or a new line, words of a letter and a
-// value, macro variables, comments. A dialect's reader adds its words, its codes and its rules.
+// The common parts of part programs in all dialects: blocks that end with ";" or a new line, words with a letter and a
+// value, macro variables, comments. The reader of a dialect adds its words, codes and rules.
 //
 //   program := block { (";" | newline) block }        word  := letter value
 //   block   := { word | "(" comment ")" | … }          value := number | "#" number
@@ -17,30 +17,30 @@ namespace rung::sim {
 
 struct ProgramValue {
   double number = 0;
-  uint32_t variable = 0; // of a macro variable; 0: the number counts
+  uint32_t variable = 0; // number of a macro variable; 0: `number` is the value
 };
 
-// The text of a part program, from its beginning to its end.
+// The text of a part program, read from its beginning to its end.
 class ProgramText {
 public:
-  // `lastVariable`: of the macro variables, which begin with #1.
+  // `lastVariable`: the highest macro variable; they begin with #1.
   ProgramText(std::string_view text, uint32_t lastVariable) : text_(text), lastVariable_(lastVariable) {}
 
   bool atBlockEnd() const;
-  // Over the end of a block; false: the text ends there.
+  // Skips the end of a block; false: the end of the text.
   bool nextBlock();
-  // The next character, 0 at the end of the text; `here`: as a capital letter.
+  // `written`: the next character, 0 at the end of the text; `here`: the same as a capital letter.
   char written() const { return at_ < text_.size() ? text_[at_] : '\0'; }
   char here() const;
   bool atLetter() const { return here() >= 'A' && here() <= 'Z'; }
   void advance() { ++at_; }
   void skipBlanks();
-  // Takes `word`, which is in capital letters; false: something else follows.
+  // Takes `word`, which must be in capital letters; false: something else follows.
   bool take(std::string_view word);
-  // To the end of a comment whose "(" has been taken; "" or what is wrong.
+  // Skips the rest of a comment whose "(" has been taken; returns "", or the error.
   std::string skipComment();
 
-  // Each gives nothing when the text continues differently; the text is not read further then.
+  // These functions return nothing if the text continues differently, and then take nothing.
   std::optional<double> number();
   std::optional<uint32_t> variable(); // after "#"
   std::optional<ProgramValue> value();
@@ -51,10 +51,10 @@ private:
   uint32_t lastVariable_;
 };
 
-// Whether a number is one of `tenths`: codes such as G54.1, which is 541.
+// Whether the code is in `tenths`: codes such as G54.1 are written 541.
 bool isCode(std::span<const int> tenths, double code);
 
-// Reads a program block by block. A Block knows whether it is `empty`: such a one does not count as part of a program.
+// Reads a program block by block. Blocks that are `empty` are not added to the program.
 template <class Block>
 class ProgramReader {
 public:
@@ -62,7 +62,7 @@ public:
   ProgramReader(const ProgramReader&) = delete;
   ProgramReader& operator=(const ProgramReader&) = delete;
 
-  // Adds the blocks; "" or what is wrong.
+  // Adds the blocks; returns "", or the error.
   std::string readBlocks(std::vector<Block>& blocks) {
     uint32_t number = 0;
     do {
@@ -77,9 +77,9 @@ public:
 protected:
   ProgramReader(std::string_view text, uint32_t lastVariable) : text_(text, lastVariable) {}
 
-  // Before the first item of a block.
+  // Called before the first item of a block.
   virtual void beginBlock(Block& block) { (void)block; }
-  // Neither a blank nor a comment.
+  // Reads an item that is neither a blank nor a comment.
   virtual std::string readItem(Block& block) = 0;
   virtual std::string checkBlock(const Block& block) const = 0;
 
@@ -95,8 +95,7 @@ private:
   }
 };
 
-// The codes of a part program by which all dialects read lengths, coordinates and feeds: G20 and G21, G90 and G91, G94
-// and G95.
+// The codes for lengths, coordinates and feeds, common to all dialects: G20 and G21, G90 and G91, G94 and G95.
 
 struct PathModes {
   static constexpr double kMmPerInch = 25.4;
@@ -104,9 +103,9 @@ struct PathModes {
   bool inch = false;        // G20
   bool incremental = false; // G91
   bool perTurn = false;     // G95
-  double feed = 0;          // mm per minute or per turn of the spindle
+  double feed = 0;          // mm per minute or per revolution of the spindle
 
-  // A G code in tenths; what is not one of these changes nothing.
+  // Takes a G code in tenths; other codes change nothing.
   void take(int tenths) {
     switch (tenths) {
     case 200:
@@ -119,9 +118,9 @@ struct PathModes {
     }
   }
 
-  // A length as the program writes it, in mm.
+  // Converts a programmed length to mm.
   double length(double written) const { return inch ? written * kMmPerInch : written; }
-  // The machine coordinate that a length leads to, in the unit of all three.
+  // The machine coordinate for a programmed length; all in the same unit.
   template <class T>
   T target(T length, T from, T zeroPoint) const {
     return incremental ? from + length : length + zeroPoint;

@@ -1,8 +1,8 @@
-// The simulated NC beside a running program: the control that every host has (rtlib/nc/control), and around it the
-// machine: axes, part programs, devices, an operator. One class a dialect; a Machine (machine.h) has it around its
+// The simulated NC of a running program: the control that every host has (rtlib/nc/control), and its machine: axes,
+// part programs, devices, an operator. Each dialect has its own class; a Machine (machine.h) installs it in its
 // instance. It knows the program only through its tables.
 //
-// Errors of the caller (an unknown key, a name that does not exist) come back as a text; "" means done.
+// Errors of the caller (an unknown key, a name that does not exist) are returned as a text; "" means success.
 #pragma once
 #include <map>
 #include <memory>
@@ -17,23 +17,23 @@
 
 namespace rung::sim {
 
-// The value of a cell that lies in the NC itself and not in the program's memory.
+// The value of a cell in the NC itself, outside the program's memory.
 struct NcCell {
   bool isReal = false; // `bits` are those of a double
-  uint32_t width = 64; // bits of an integer
+  uint32_t width = 64; // number of bits of an integer
   uint64_t bits = 0;
-  bool untyped = false; // eight bytes are an integer or a double, as they are wanted
+  bool untyped = false; // the eight bytes may be read as an integer or a double
   bool isText = false;  // `text`, in UTF-8
   std::string text = {};
 };
 
-// What is wrong with a connection, once the program has started.
+// An error in a connection, detected once the program has started.
 struct NcProblem {
   uint32_t connection = RUNG_NONE; // in the order of the calls of `connect`; RUNG_NONE: from a file of the control
   std::string text;
 };
 
-// The NC's part of a statement such as `event NAME KEY=VALUE`. Numbers and texts as the scenario gives them.
+// An argument for the NC in a statement such as `event NAME KEY=VALUE`. Numbers and texts as in the scenario.
 struct NcArgument {
   std::string key;
   bool isText = false;
@@ -43,34 +43,34 @@ struct NcArgument {
   std::string text;
 };
 
-// Who answers a request within a scan besides the machine.
+// Answers requests within a scan in addition to the machine.
 class Answers {
 public:
   virtual ~Answers() = default;
-  // Before the machine. False: the machine.
+  // Called before the machine. Returns false to leave the answer to the machine.
   virtual bool respond(runtime::Instance& instance, const core::ServiceRequest& request, core::ServiceReply& reply) = 0;
-  // Where the machine gives no answer. False: the request waits.
+  // Called if the machine does not answer. Returns false if the request has to wait.
   virtual bool takeUnanswered(runtime::Instance& instance, const core::ServiceRequest& request,
                               core::ServiceReply& reply) = 0;
 };
 
 class SimulatedNc : public api::Environment {
 public:
-  // Files named by `config` without a full path are in this folder; without one, in the working folder.
+  // Files that `config` names by a relative path are in this folder; without it, in the working directory.
   void setFolder(std::string folder) { folder_ = std::move(folder); }
-  // Before the first power-on.
+  // To be called before the first power-on.
   virtual std::string config(std::string_view key, std::string_view value);
   virtual std::string connect(std::string_view source, std::string_view destination);
-  // After a power-on: the connections whose ends do not exist or do not fit. They are not served.
+  // After a power-on: the connections whose ends do not exist or do not fit, and which are not served.
   virtual std::vector<NcProblem> connectionProblems() const { return {}; }
 
-  // Null: none. They outlive it.
+  // Null: none. They must outlive this object.
   void setAnswers(Answers* answers) { answers_ = answers; }
   bool respond(runtime::Instance& instance, const core::ServiceRequest& request, core::ServiceReply& reply) final {
     return (answers_ != nullptr && answers_->respond(instance, request, reply)) || serve(instance, request, reply) ||
            (answers_ != nullptr && answers_->takeUnanswered(instance, request, reply));
   }
-  // A waiting request was answered, between two scans; `bytes` are those of the answer.
+  // A waiting request was answered, between two scans; `bytes` are the bytes of the answer.
   virtual void answered(runtime::Instance& instance, const core::ServiceRequest& request, std::string_view bytes) {
     (void)instance, (void)request, (void)bytes;
   }
@@ -78,27 +78,28 @@ public:
   // Switches the control and the machine on.
   void powerOn(runtime::Instance& instance, nc::PowerOn kind) override;
 
-  // What the NC itself keeps through power-off, beside the program's retained memory: an image of a fixed size once it
-  // is configured, 0: nothing. `copyKept` allocates nothing. `restoreKept` comes before powerOn, whose kind is then
-  // the program's alone; an empty image is that of an NC as it was delivered.
+  // The state that the NC itself retains through power-off, besides the program's retained memory: an image of a fixed
+  // size once it is configured, 0: nothing. `copyKept` allocates nothing. `restoreKept` must precede powerOn, whose
+  // kind then applies only to the program; an empty image is that of an NC as delivered.
   virtual uint32_t keptSize() { return 0; }
   virtual void copyKept(std::span<uint8_t> image) noexcept { (void)image; }
   virtual void restoreKept(std::span<const uint8_t> image) { (void)image; }
-  // Time has passed in which a fault kept the program from running.
+  // Time has passed while a fault prevented the program from running.
   virtual void idle(runtime::Instance& instance) { (void)instance; }
-  // From now on the program runs on the machine's clock.
+  // The program runs on the machine's clock from now on.
   virtual void setRealTime() {}
 
-  // The machine or a user is going to write there: what the control has put over the real value gives way to it.
+  // The machine or a user is about to write this place: a value by which the control covers the real one must be
+  // removed.
   virtual void beforeWrite(runtime::Instance& instance, const runtime::Ref& place) { (void)instance, (void)place; }
 
-  // Cells of the NC itself by the dialect's identifiers; nothing: no such cell. Writing: "" or what is
-  // wrong with the value.
+  // Cells of the NC itself by the dialect's identifiers; nothing: no such cell. Writing returns "", or the error in the
+  // value.
   virtual std::optional<NcCell> readCell(std::string_view name) const;
   virtual std::optional<std::string> writeCell(std::string_view name, const NcCell& value);
-  // Why the cell does not exist; "": the name is not one of the NC's.
+  // Why the cell does not exist; "": the name is not that of an NC cell.
   virtual std::string cellProblem(std::string_view name) const;
-  // It may be there later.
+  // Whether the cell may exist later.
   virtual bool cellMayCome(std::string_view name) const;
 
   // Quantities of the NC itself, "NC.MPOS.1".
@@ -107,15 +108,15 @@ public:
 
   virtual std::string blockStart(runtime::Instance& instance, const std::vector<NcArgument>& keys);
   virtual std::string blockDone(runtime::Instance& instance);
-  // Names of those that it knows.
+  // Names of the events that it supports.
   virtual std::vector<std::string_view> events() const { return {}; }
   virtual std::string event(runtime::Instance& instance, std::string_view name, const std::vector<NcArgument>& keys);
   virtual std::string plcCommand(runtime::Instance& instance, std::string_view command);
-  // What has left a port and has not been checked is as the keys say, or there is nothing (`none`). "" or what is
-  // wrong.
+  // Checks the next unchecked data that a port has sent: it must match the keys, or there must be none (`none`).
+  // Returns "", or the error.
   virtual std::string expectSent(std::string_view port, const std::vector<NcArgument>& keys);
 
-  // What is shown is the control's, what is logged is kept here.
+  // Displayed messages belong to the control; logged messages are stored here.
   void accept(const runtime::Instance& instance, const rung_message& message) override;
   // Entries of the log since the last call.
   std::vector<std::string> takeLog() { return std::exchange(log_, {}); }
@@ -123,7 +124,7 @@ public:
 protected:
   // Whether the log gets a line for this message.
   virtual bool isLogged(const rung_message& message) const;
-  // True: the machine answers, within the scan. False: the request waits for an answer from elsewhere.
+  // Returns true if the machine answers within the scan, false if the request waits for another answer.
   virtual bool serve(runtime::Instance& instance, const core::ServiceRequest& request, core::ServiceReply& reply) {
     (void)instance, (void)request, (void)reply;
     return false;
@@ -139,10 +140,10 @@ private:
   Answers* answers_ = nullptr;
 };
 
-// By rung_program::dialect; a plain model for a dialect without one.
+// The model for a rung_program::dialect; a plain model for a dialect without one.
 std::unique_ptr<SimulatedNc> makeSimulatedNc(std::string_view dialect);
 
-std::unique_ptr<SimulatedNc> makeSimulatedPlain(); // of a dialect without a control of its own
+std::unique_ptr<SimulatedNc> makeSimulatedPlain(); // for a dialect without its own control
 std::unique_ptr<SimulatedNc> makeSimulatedGsk();
 std::unique_ptr<SimulatedNc> makeSimulatedNct();
 std::unique_ptr<SimulatedNc> makeSimulatedTechnol();

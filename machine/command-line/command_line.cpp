@@ -18,14 +18,14 @@
 namespace rung::cli {
 namespace {
 
-// CLI11 writes the choices into the name of the type: "TEXT:{auto,always,never}".
+// CLI11 includes the choices in the name of the type: "TEXT:{auto,always,never}".
 std::vector<std::string> choicesIn(const std::string& type) {
   const size_t begin = type.find('{');
   if (begin == std::string::npos) return {};
   return CLI::detail::split(type.substr(begin + 1, type.find('}', begin) - begin - 1), ',');
 }
 
-// "--engine" and "--scans" of those that the option needs or excludes.
+// The names of options that an option needs or excludes: "--engine" and "--scans".
 std::string namesOf(const std::set<CLI::Option*>& options) {
   std::vector<std::string> names;
   for (const CLI::Option* option : options) names.push_back(option->get_name());
@@ -102,7 +102,7 @@ Option Command::flag(const std::string& names, bool& value, const std::string& d
 
 void Command::onParsed(std::function<int()> then) {
   app_->parse_complete_callback([app = app_, then = std::move(then)] {
-    if (!app->remaining().empty()) return; // a word that it does not take: that is reported first
+    if (!app->remaining().empty()) return; // unknown words are reported first
     if (const int status = then(); status != 0) throw CLI::RuntimeError(status);
   });
 }
@@ -144,7 +144,7 @@ std::vector<OptionText> Command::options() const {
 
 namespace {
 
-// Where one is closed the next file that is opened would be it, and what is printed would go there.
+// Opens closed standard files: otherwise the next file to be opened would get their number, and output would go there.
 void openStandardFiles() {
   for (int file = open("/dev/null", O_RDWR); file >= 0; file = open("/dev/null", O_RDWR))
     if (file > STDERR_FILENO) {
@@ -180,7 +180,7 @@ void CommandLine::takeRest(Command command, std::vector<std::string>& words) { r
 
 namespace {
 
-// Where a -- is among the words; their number where there is none.
+// The index of `--` among the words; their number if there is none.
 int dashesIn(int argc, char** argv) {
   for (int i = 1; i < argc; ++i)
     if (std::string_view(argv[i]) == "--") return i;
@@ -196,10 +196,10 @@ std::optional<int> CommandLine::run(int argc, char** argv, const std::function<i
   std::optional<int> decided;
   try {
     decided = parse(words, argv, wrong);
-  } catch (const std::system_error&) { // of fmt::print
+  } catch (const std::system_error&) { // from fmt::print
     if (std::ferror(stdout) == 0 && std::ferror(stderr) == 0) throw;
   }
-  if (std::ferror(stderr) != 0) return kEnvironment; // there is nowhere to say why
+  if (std::ferror(stderr) != 0) return kEnvironment; // the reason cannot be reported
   std::cout.flush();
   std::fflush(stdout);
   if (std::cout && std::ferror(stdout) == 0) return decided;
@@ -212,7 +212,7 @@ std::optional<int> CommandLine::parse(int argc, char** argv, const std::function
     app_->parse(argc, argv);
     return std::nullopt;
   } catch (const CLI::RuntimeError& error) {
-    return error.get_exit_code(); // the cause is printed
+    return error.get_exit_code(); // the cause has been printed
   } catch (const CLI::Success& asked) {
     return app_->exit(asked); // --help, --version
   } catch (const CLI::ParseError& error) {

@@ -1,5 +1,5 @@
-// The command line of a program: commands with their options, and what becomes of the words that a user has typed.
-// CLI11 does it, which command_line.cpp alone includes, as compiling it takes long.
+// The command line of a program: its commands and options, and the parsing of the words that a user has typed. Only
+// command_line.cpp includes CLI11, which does the parsing, because CLI11 takes long to compile.
 #pragma once
 #include <cstdint>
 #include <functional>
@@ -18,7 +18,8 @@ namespace rung::cli {
 
 enum ExitStatus { kOk = 0, kWrong = 1, kUsage = 2, kEnvironment = 3 };
 
-// An option or a word of a command, as a handle: a copy is the same one. Each call gives the option back.
+// Handle of an option or of a positional argument of a command; copies refer to the same one. Each setter returns the
+// option, so that calls can be chained.
 class Option {
 public:
   explicit Option(CLI::Option* option) : option_(option) {}
@@ -30,8 +31,8 @@ public:
   Option between(double least, double most);
   Option excludes(Option other);
   Option needs(Option other);
-  Option oneValue();   // of a list: one value each time, what follows is another word
-  Option manyValues(); // of a list: all that follows
+  Option oneValue();   // list: one value each time; the next word is another argument
+  Option manyValues(); // list: takes all words up to the next option
   Option showDefault();
 
 private:
@@ -39,21 +40,22 @@ private:
 };
 
 struct OptionText {
-  std::vector<std::string> names;   // "-q", "--quiet"; of a word that is not an option, none
-  std::string word;                 // what follows it, "TEXT"; "" of a flag
-  std::vector<std::string> choices; // the only values that it takes; empty: any
+  std::vector<std::string> names;   // "-q", "--quiet"; empty for a positional argument
+  std::string word;                 // name of the value, "TEXT"; "" for a flag
+  std::vector<std::string> choices; // the permitted values; empty: any
   std::string description;          // one line
-  bool repeated = false;            // more than one value
+  bool repeated = false;            // can have several values
   bool required = false;
 };
 
-// A command, or the program itself, as a handle to a part of a CommandLine.
+// Handle of a command, or of the program itself, as part of a CommandLine.
 class Command {
 public:
   explicit Command(CLI::App* app) : app_(app) {}
   bool operator==(const Command&) const = default;
 
-  // The value lives until the command has run. `names` is "-o,--output", or "FILE" for a word.
+  // Adds an option. `value` must live until the command has run. `names` is "-o,--output", or "FILE" for a positional
+  // argument.
   Option option(const std::string& names, std::string& value, const std::string& description);
   Option option(const std::string& names, std::vector<std::string>& value, const std::string& description);
   Option option(const std::string& names, int& value, const std::string& description);
@@ -61,40 +63,41 @@ public:
   Option option(const std::string& names, std::optional<uint64_t>& value, const std::string& description);
   Option option(const std::string& names, double& value, const std::string& description);
   Option flag(const std::string& names, bool& value, const std::string& description);
-  // When the words of the command are read and each is known; a status other than 0 ends the program.
+  // Calls `then` after the words of the command have been parsed without unknown ones; a result other than 0 ends the
+  // program with that exit status.
   void onParsed(std::function<int()> then);
   void onRun(std::function<void()> run);
   bool given(const std::string& option) const;
-  // A flag that prints this text in the place of all else.
+  // Adds a flag that prints this text and does nothing else.
   void textFlag(const std::string& name, const std::string& description, std::function<std::string()> text);
 
-  // Of a command whose statuses mean something else than those of the program: "0 …, 1 …".
+  // Sets the text "0 …, 1 …" of a command whose exit statuses differ from those of the program.
   void exitStatus(const std::string& text);
 
   const std::string& name() const;
   std::string description() const;
   std::string exitStatus() const;
-  std::string help() const; // what --help prints
-  // Options that may be seen, then words, each in the order in which they were added.
+  std::string help() const; // the output of --help
+  // Visible options, then positional arguments, each in the order in which they were added.
   std::vector<OptionText> options() const;
 
 private:
   CLI::App* app_;
 };
 
-// Words that no command takes, or that are missing.
+// The words of a wrong command line: unknown to the command, or missing.
 struct WrongWords {
-  std::optional<Command> command; // that was named
+  std::optional<Command> command; // the command that was named
   std::vector<std::string> unread;
-  std::string text; // what CLI11 says
+  std::string text; // CLI11's message
 };
 
-// What a program says of itself; --version prints its name and the version of Rung.
+// A program's description in help and manual pages; --version prints its name and the version of Rung.
 struct ProgramText {
   std::string name; // "rungc"
   std::string description;
   std::string exitStatus;           // "0 ok, 1 …"
-  std::string guide;                // the file that shows the commands at work
+  std::string guide;                // the page that shows the commands in use
   std::vector<std::string> seeAlso; // manual pages, "rung.toml(5)"
 };
 
@@ -103,19 +106,20 @@ public:
   explicit CommandLine(ProgramText text);
   ~CommandLine();
 
-  // With a command one is needed; a program without any has the options of its root.
+  // Adds a command. A program with commands requires one of them; a program without commands has only the options of
+  // its root.
   Command add(const std::string& name, const std::string& description);
   Command root() const;
   const ProgramText& text() const { return text_; }
   std::string version() const;           // "rungc 0.1"
-  std::vector<Command> commands() const; // in the order in which they are listed
+  std::vector<Command> commands() const; // in the order of the help text
 
-  // What follows a -- among the words of the command goes into `words`, which lives until it has run.
+  // Puts the words after `--` into `words`, which must live until the command has run.
   void takeRest(Command command, std::vector<std::string>& words);
 
-  // Runs the command that is named. The exit status where the command line itself decides it: --help, a wrong project;
-  // `wrong` is called for wrong words and gives it. Nothing where the command has run, and all that it has printed has
-  // been written: else that is said here, and the status is kEnvironment.
+  // Runs the named command. Returns the exit status if the command line itself decides it (--help, a wrong project), or
+  // the result of `wrong`, which is called for wrong words. Returns nothing if the command has run and its output has
+  // been written; a failed write is reported here and returns kEnvironment.
   std::optional<int> run(int argc, char** argv, const std::function<int(const WrongWords&)>& wrong);
 
 private:

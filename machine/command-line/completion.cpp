@@ -14,7 +14,7 @@ std::vector<std::string> namesOf(const std::vector<Command>& commands) {
   return names;
 }
 
-// What is left of a command's choices where `help` takes the name of one.
+// The choices of an option; for the argument of `help`, the names of the commands.
 std::vector<std::string> choicesOf(const CommandLine& app, Command command, const OptionText& option) {
   const bool helped = command.name() == "help" && option.word == "COMMAND";
   return helped ? namesOf(app.commands()) : option.choices;
@@ -23,7 +23,7 @@ std::vector<std::string> choicesOf(const CommandLine& app, Command command, cons
 // ---- bash ----------------------------------------------------------------------------------------------------------
 
 std::string bashCase(const CommandLine& app, Command command) {
-  std::string values; // of the option before the word
+  std::string values; // cases for the option before the word
   std::vector<std::string> words, free;
   for (const OptionText& option : command.options()) {
     words.insert(words.end(), option.names.begin(), option.names.end());
@@ -42,7 +42,7 @@ std::string bashCase(const CommandLine& app, Command command) {
 
 // ---- zsh -----------------------------------------------------------------------------------------------------------
 
-// Within single quotes and brackets.
+// Escapes a text within single quotes and brackets.
 std::string zshText(const std::string& text) {
   std::string quoted;
   for (const char c : text) {
@@ -56,13 +56,13 @@ std::string zshText(const std::string& text) {
   return quoted;
 }
 
-// "-q" and "--quiet" are one option: after one of them neither is offered.
+// "-q" and "--quiet" are one option: after one of them, neither is offered.
 std::string zshBefore(const OptionText& option) {
   if (option.repeated) return "*";
   return option.names.size() > 1 ? "(" + joined(option.names) + ")" : "";
 }
 
-// Of a word that may be left out there are two colons.
+// An optional argument has two colons.
 std::string zshColons(const OptionText& option) {
   if (option.repeated) return "*";
   return option.required ? "" : ":";

@@ -1,4 +1,4 @@
-// Completion of command lines in shells, from the description of the command line.
+// Shell completion, generated from the description of the command line.
 #pragma once
 #include <string>
 

@@ -10,7 +10,8 @@
 namespace rung::cli {
 namespace {
 
-// As it is written: what roff would set as an accent, a quotation mark or a hyphen can be copied into a terminal.
+// Escapes characters that roff would set as an accent, a quotation mark or a hyphen, so that they can be copied into a
+// terminal.
 std::string escaped(std::string_view text) {
   std::string roff;
   for (const char c : text) {
@@ -27,7 +28,7 @@ std::string escaped(std::string_view text) {
   return roff;
 }
 
-// A line of its own: what looks like a macro there is none.
+// A line of text, which roff does not take for a macro.
 std::string line(std::string_view text) { return (text.starts_with('.') ? "\\&" : "") + escaped(text) + "\n"; }
 
 std::string bold(std::string_view text) { return "\\fB" + escaped(text) + "\\fR"; }
@@ -83,7 +84,7 @@ std::string manualPage(const CommandLine& app, Command command) {
   const bool whole = command == app.root();
   const std::vector<OptionText> options = command.options();
   const std::string name = pageName(app, command);
-  // Without a date: the same command line gives the same page.
+  // No date: the same command line results in the same page.
   std::string text = fmt::format(".TH \"{}\" 1 \"\" \"{}\" \"Rung\"\n", escaped(text::upper(name)), app.version());
   text += ".SH NAME\n" + escaped(name) + " \\- " + escaped(command.description()) + "\n";
   const bool chooses = whole && !app.commands().empty();

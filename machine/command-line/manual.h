@@ -1,4 +1,4 @@
-// Manual pages, from what --help says.
+// Manual pages, generated from the help texts.
 #pragma once
 #include <string>
 
@@ -6,7 +6,7 @@
 
 namespace rung::cli {
 
-// Of a command, or of the program where `command` is its root; for man(1).
+// The page of a command, or of the program if `command` is its root, in the format of man(1).
 std::string manualPage(const CommandLine& app, Command command);
 
 } // namespace rung::cli

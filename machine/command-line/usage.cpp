@@ -60,7 +60,7 @@ std::string wrongUsage(const CommandLine& app, const WrongWords& words) {
   return fmt::format("{0}: {1}; `{0} help {2}` shows its arguments and options\n", program, text, command.name());
 }
 
-// What `help` prints; nothing: there is no such command.
+// The text that `help` prints; nothing if there is no such command.
 std::optional<std::string> help(const CommandLine& app, const std::string& word, bool asManual) {
   if (word.empty()) return asManual ? manualPage(app, app.root()) : shortHelp(app);
   const std::vector<Command> commands = app.commands();

@@ -1,4 +1,4 @@
-// Help, completion, and what is said about a wrong command line: one line with the word that was meant.
+// Help, completion, and messages about a wrong command line: one line with the word that was probably meant.
 #pragma once
 #include <string>
 
@@ -6,10 +6,10 @@
 
 namespace rung::cli {
 
-// What is wrong, for standard error; where there are no words at all, the list of commands.
+// The message for standard error; the list of commands if there are no words at all.
 std::string wrongUsage(const CommandLine& app, const WrongWords& words);
 
-// The commands `completion` and `help`, the last of the program. One without commands has a flag --man.
+// Adds the commands `completion` and `help` after all others. A program without commands gets a flag --man.
 void addUsage(CommandLine& app, int& status);
 
 } // namespace rung::cli

@@ -1,4 +1,5 @@
-// The host's side of the compiler process (see compilation.h): starts it, feeds it, waits for it no longer than that.
+// The host's side of the compiler process (see compilation.h): starts it, sends its input, and waits for it with a time
+// limit.
 #include "machine/compile/compilation.h"
 
 #include <fcntl.h>
@@ -35,7 +36,8 @@ using runtime::File;
 
 std::string because(const char* what) { return std::string(what) + ": " + std::strerror(errno); }
 
-// Above those that the process gets, so that none is overwritten while it is given them.
+// Moves a descriptor above the numbers that the process gets, so that none of these is overwritten before it is
+// duplicated.
 File moved(int fd) {
   constexpr int kFirst = 16;
   File high(fd >= 0 ? fcntl(fd, F_DUPFD_CLOEXEC, kFirst) : -1);
@@ -71,7 +73,7 @@ struct SpawnActions {
   SpawnActions& operator=(const SpawnActions&) = delete;
 };
 
-// Signals as a new program expects them, and no real-time priority; the process lowers its priority further itself.
+// Default signals, and no real-time priority; the process itself lowers its priority further.
 void setAttributes(posix_spawnattr_t& attributes) {
   sigset_t none, all;
   sigemptyset(&none);
@@ -84,7 +86,7 @@ void setAttributes(posix_spawnattr_t& attributes) {
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSCHEDULER);
 }
 
-// What a process is given, and nothing else of ours.
+// The open files of the process; all others of the host are closed.
 void setFiles(posix_spawn_file_actions_t& actions, const Pipe& input, const Pipe& answer, int image) {
   posix_spawn_file_actions_adddup2(&actions, input.read.fd(), kInputFile);
   posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
@@ -94,7 +96,7 @@ void setFiles(posix_spawn_file_actions_t& actions, const Pipe& input, const Pipe
   posix_spawn_file_actions_addclosefrom_np(&actions, image >= 0 ? kImageFile + 1 : kAnswerFile + 1);
 }
 
-// The number of the process; 0, with errno. No memory of ours is copied for it: a real-time thread would notice.
+// Returns the process ID, or 0 with errno. None of the host's memory is copied, which a real-time thread would notice.
 pid_t spawned(const std::string& program, const std::vector<std::string>& words, const Pipe& input, const Pipe& answer,
               int image) {
   SpawnActions actions;
@@ -110,7 +112,7 @@ pid_t spawned(const std::string& program, const std::vector<std::string>& words,
   return errno == 0 ? process : 0;
 }
 
-// Gives the input and takes the answer, as the process reads and writes, until that has ended. "" or what went wrong.
+// Writes the input and reads the answer until the process has ended. Returns "", or the error.
 std::string exchange(File& to, std::string_view input, const File& from, std::string& answer, size_t most) {
   const auto end = Clock::now() + std::chrono::seconds(Compilation::kMostSeconds);
   fcntl(to.fd(), F_SETFL, O_NONBLOCK);
@@ -124,7 +126,7 @@ std::string exchange(File& to, std::string_view input, const File& from, std::st
     if (waiting[1].revents != 0) {
       const ssize_t done = write(to.fd(), input.data(), input.size());
       if (done > 0) input.remove_prefix(static_cast<size_t>(done));
-      if (done < 0 && errno != EINTR && errno != EAGAIN) input = {}; // it reads no more
+      if (done < 0 && errno != EINTR && errno != EAGAIN) input = {}; // the process no longer reads
     }
     if (waiting[0].revents == 0) continue;
     const ssize_t got = read(from.fd(), bytes.data(), bytes.size());
@@ -135,7 +137,7 @@ std::string exchange(File& to, std::string_view input, const File& from, std::st
   }
 }
 
-// How a process has ended that gave no whole answer.
+// How a process without a complete answer has ended.
 std::string endOf(int status) {
   if (!WIFSIGNALED(status)) return "it ended with status " + std::to_string(WEXITSTATUS(status));
   const int signal = WTERMSIG(status);
@@ -149,9 +151,9 @@ std::string endOf(int status) {
 } // namespace
 
 struct Compilation::Outcome {
-  std::string answer;  // without its first line
-  std::string verdict; // the first line; "" where there is none
-  std::string problem; // why not
+  std::string answer;  // without the first line
+  std::string verdict; // the first line; "" if there is none
+  std::string problem; // reason of a failure
 };
 
 template <class Work>
@@ -160,7 +162,7 @@ void Compilation::begin(Work work) {
     runtime::becomeHelper();
     try {
       work();
-    } catch (const std::exception& problem) { // no memory
+    } catch (const std::exception& problem) { // out of memory
       end(State::Failed, problem.what());
     }
   });
@@ -203,7 +205,7 @@ void Compilation::end(State state, std::string report) {
   state_.store(state, std::memory_order_release);
 }
 
-// False: the result is no longer wanted.
+// Sets the process to be ended by the destructor; returns false if the result is no longer wanted.
 bool Compilation::take(pid_t process) {
   const std::lock_guard lock(changes_);
   process_ = process;
@@ -229,7 +231,7 @@ Compilation::Outcome Compilation::run(const std::vector<std::string>& words, con
   siginfo_t ended{};
   while (waitid(P_PID, static_cast<id_t>(process), &ended, WEXITED | WNOWAIT) != 0 && errno == EINTR) {
   }
-  take(0); // its number is not reused yet
+  take(0); // before waitpid, so that the ID is not yet reused
   while (waitpid(process, &status, 0) < 0 && errno == EINTR) {
   }
   const size_t line = outcome.answer.find('\n');
@@ -259,7 +261,7 @@ void Compilation::compile(const std::vector<std::string>& words, const std::stri
 
 namespace {
 
-constexpr const char* kProgram = RUNG_COMPILE_PROGRAM; // where it is installed
+constexpr const char* kProgram = RUNG_COMPILE_PROGRAM; // path of an installation
 
 std::string fileProblem(const std::string& path, const runtime::ProcessIds& ids) {
   const int file = open(path.c_str(), O_PATH | O_CLOEXEC);
@@ -269,7 +271,7 @@ std::string fileProblem(const std::string& path, const runtime::ProcessIds& ids)
   return problem;
 }
 
-// What an unprivileged process takes.
+// The path that an unprivileged process uses.
 std::string chosenProgram() {
   if (const char* named = secure_getenv("RUNG_COMPILE"); named != nullptr && *named == '/') return named;
   for (const char* place : {"/rung-compile", "/../libexec/rung/rung-compile"}) {

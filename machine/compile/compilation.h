@@ -1,5 +1,5 @@
-// Compiles sources in a separate process, which the host starts, and which can reach nothing of the host
-// (docs/security.md). Errors of the compiler harm only that process.
+// Compiles sources in a separate process, which the host starts and which has no access to the host (docs/security.md).
+// Errors of the compiler harm only that process.
 #pragma once
 #include <atomic>
 #include <cstdint>
@@ -12,26 +12,26 @@
 
 namespace rung::compile {
 
-// A compiler process. All functions are for the thread that has started it, except that a thread of its own waits for
-// the process.
+// A compiler process. All functions are for the thread that has created the object; an internal thread waits for the
+// process.
 class Compilation {
 public:
   enum class State : uint8_t {
     Running,
-    Compiled, // `image` has the program
-    Errors,   // of the sources: `report` has them as rungc prints them
-    Failed,   // `report` says why
+    Compiled, // `image` returns the program
+    Errors,   // in the sources: `report` has them as rungc prints them
+    Failed,   // `report` has the reason
   };
   enum class Input : uint8_t {
     Sources, // packed (sources.h)
-    Forces,  // the same (forces.h)
+    Forces,  // packed (forced_code_maker.h)
   };
-  static constexpr unsigned kMostSeconds = 60; // of the clock
+  static constexpr unsigned kMostSeconds = 60; // wall-clock time
 
-  // Starts to compile packed sources or forces; `packed` may be any bytes. The process has a lower priority than all of
-  // the host, and accepts the bytes only as `input`.
+  // Starts to compile packed sources or forces; `packed` may be any bytes. The process has a lower priority than every
+  // thread of the host, and accepts the bytes only as `input`.
   explicit Compilation(std::string packed, Input input = Input::Sources);
-  // Starts to compile these files (sources, or a project), which the process reads first, with the rights of `user`.
+  // Starts to compile these files (sources, or a project); the process reads them first, with the rights of `user`.
   Compilation(const std::vector<std::string>& files, uid_t user);
   // Ends the process if it still runs.
   ~Compilation();
@@ -39,7 +39,7 @@ public:
   Compilation& operator=(const Compilation&) = delete;
 
   State state() const { return state_.load(std::memory_order_acquire); }
-  // Waits for the end of the process: for a host that compiles its program at its start.
+  // Waits until the process has ended: for a host that compiles its program when it starts.
   State wait();
   // The functions below must not be called while the process runs.
   const std::string& report() const { return report_; } // errors, or the warnings of a compiled program
@@ -59,17 +59,18 @@ private:
   std::atomic<State> state_{State::Running};
   std::string report_;
   int image_ = -1;
-  std::mutex changes_; // of these two
-  pid_t process_ = 0;  // 0: none runs
+  std::mutex changes_; // protects process_ and ending_
+  pid_t process_ = 0;  // 0: no process runs
   bool ending_ = false;
   std::thread worker_;
 };
 
-// The path of rung-compile, the program that a host starts to compile sources.
+// Finds rung-compile, the program that a host starts to compile sources.
 
 // An unprivileged process (rtlib/load/trust.h) uses the environment variable RUNG_COMPILE, if it is set. Otherwise the
-// program is beside the host's own program, as in a build, or where an installation with the same prefix has it. Empty,
-// and `problem` says why: it does not exist, or users other than root and the process's own could have changed it.
+// program is beside the host's own program, as in a build, or where an installation with the same prefix has it.
+// Returns an empty path, with the reason in `problem`, if the program does not exist, or if users other than root and
+// the process's own could have changed it.
 std::string compilerProgram(std::string& problem);
 
 } // namespace rung::compile

@@ -23,7 +23,7 @@ std::string sizeOf(const rung_program& program) {
          " bytes of memory";
 }
 
-// Throws where this code cannot take the place of the program's.
+// Throws if the new code cannot replace that of the program.
 void checkSame(const rung_program& made, const rung_program& program) {
   if (made.chunk_count != program.chunk_count || made.memory_size != program.memory_size)
     throw std::runtime_error("the compiler process made code of " + sizeOf(made) + ", expected " + sizeOf(program));
@@ -31,7 +31,7 @@ void checkSame(const rung_program& made, const rung_program& program) {
     throw std::runtime_error("the compiler process made code of another program");
 }
 
-// All of the file that has been loaded.
+// The whole file that was loaded.
 std::string loadedFile(const rung_image* image) {
   std::string file = fileOf(image, kMostImage);
   if (file.empty())
@@ -41,7 +41,7 @@ std::string loadedFile(const rung_image* image) {
 
 } // namespace
 
-// Chunk functions of a compiled program need nothing but their arguments.
+// The image must stay loaded while its chunk functions are in use; they need nothing but their arguments.
 struct ForcedCodeMaker::Made {
   Image image;
 };
@@ -65,7 +65,7 @@ void ForcedCodeMaker::serve(const Image& image) {
   described.release = [](void* user) { delete static_cast<Shared*>(user); };
   described.user = maker.get();
   const int32_t status = rung_image_serve(image.handle(), &described);
-  if (status == RUNG_WRONG_STATE) return; // it has been before
+  if (status == RUNG_WRONG_STATE) return; // the image already has a maker
   check(status);
   [[maybe_unused]] const Shared* images = maker.release();
 }
@@ -97,7 +97,7 @@ bool ForcedCodeMaker::force(const rung_image* image, const rung_program& program
   Wanted wanted{program.code_hash, program.layout_hash, {forced.begin(), forced.end()}};
   const std::lock_guard lock(mutex_);
   if (compilation_ == nullptr || !isWanted(wanted)) {
-    compilation_.reset(); // it ends before the next one begins
+    compilation_.reset(); // ends the previous process before the next one begins
     begin(image, std::move(wanted));
   }
   if (compilation_->state() == Compilation::State::Running) return false;
@@ -113,8 +113,8 @@ bool ForcedCodeMaker::force(const rung_image* image, const rung_program& program
   return true;
 }
 
-// A line with the version; the hashes of code and layout (8 bytes each), the number of forced bytes (4), of each space,
-// byte, mask and value (4 each); the file. Numbers have the low byte first.
+// A line with the version; the hashes of code and layout (8 bytes each), the number of forced bytes (4), for each of
+// them space, byte, mask and value (4 each); the file. Numbers have the low byte first.
 
 namespace {
 
@@ -124,7 +124,7 @@ constexpr unsigned kFieldBytes = 4;
 
 std::pair<uint32_t, uint32_t> placeOf(const rung_forced_byte& byte) { return {byte.space, byte.byte}; }
 
-// What rung_forced_byte says of itself.
+// Checks the conditions that rung_forced_byte documents.
 bool isForced(const rung_forced_byte& byte) {
   return byte.mask != 0 && byte.mask <= 0xFF && (byte.value & ~byte.mask) == 0;
 }

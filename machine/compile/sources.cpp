@@ -1,4 +1,5 @@
-// A line with the version, then entries: a letter, the lengths of key and value (4 bytes each, low byte first), both.
+// Format: a line with the version, then entries: a letter, the lengths of key and value (4 bytes each, low byte first),
+// key and value.
 #include "machine/compile/sources.h"
 
 #include <algorithm>
@@ -32,7 +33,7 @@ void put(std::string& out, Entry entry, std::string_view key, std::string_view v
   out += value;
 }
 
-// False: there is no such entry.
+// Returns false if there is no such entry.
 bool keep(Sources& to, char entry, std::string_view key, std::string_view value) {
   switch (entry) {
   case Entry::Dialect: to.dialect = key; return true;
@@ -91,7 +92,7 @@ std::optional<Sources> unpacked(std::string_view bytes, std::string& problem) {
 Image compiledImage(const std::string& path, uid_t user, std::string& warnings) {
   Compilation compilation({path}, user);
   const Compilation::State state = compilation.wait();
-  if (state == Compilation::State::Errors) throw std::runtime_error(compilation.report()); // each with its file
+  if (state == Compilation::State::Errors) throw std::runtime_error(compilation.report()); // each error names its file
   if (state != Compilation::State::Compiled)
     throw std::runtime_error("cannot compile " + path + ": " + compilation.report());
   warnings = compilation.report();

@@ -18,10 +18,10 @@ namespace rung::control {
 using nlohmann::json;
 
 namespace {
-constexpr uint32_t kScansKept = 4096; // of a watch of all scans
+constexpr uint32_t kScansKept = 4096; // for a client that watches all scans
 }
 
-// By name, as long as this exists.
+// Cells that are looked up by name, and released with this object.
 struct Cells::Found {
   explicit Found(rung_instance* instance) : of(instance) {}
   ~Found() {
@@ -51,7 +51,7 @@ struct Cells::Watching {
     return sample.generation != generation ||
            std::memcmp(values.data(), sent.data(), values.size() * sizeof(rung_value)) != 0;
   }
-  // Of a cell that the program no longer has, or has with another type than the client knows: null.
+  // null if the program no longer has the cell, or if its type differs from the one that the client knows.
   json valueOf(size_t i) const { return gone[i] ? json() : toJson(types[i], values[i]); }
   json event(const rung_sample& sample) {
     if (sample.generation != generation) {
@@ -73,7 +73,7 @@ struct Cells::Watching {
   rung_watch* watch = nullptr;
   std::vector<uint32_t> types;
   bool all;
-  uint32_t generation = 0; // of what is known of the cells
+  uint32_t generation = 0; // generation of the program for which `gone` is valid
   std::vector<bool> gone;
   bool begun = false;
   std::vector<rung_value> values, sent;
@@ -90,7 +90,7 @@ void Cells::learnSymbols(const rung_program& program) {
     if ((symbol.flags & RUNG_SYMBOL_HIDDEN) == 0) symbols_.emplace_back(symbol.name);
 }
 
-// A name of the program that runs now; "" when none is close.
+// The most similar name of the running program; "" if none is close.
 std::string Cells::meantBy(const std::string& name) const {
   for (const std::vector<std::string>& symbols : {symbols_, formerSymbols_})
     if (std::string meant = host::meantName(name, symbols);
@@ -104,7 +104,7 @@ rung_cell_info Cells::describe(const std::string& name, int32_t access) const {
   int64_t value = 0;
   const int32_t status = rung_instance_describe(plc_.instance(), nullptr, name.c_str(), access, &info, &value);
   if (status == RUNG_NOT_FOUND) {
-    const std::string problem = rung_error_text(); // looking for the name that was meant makes others
+    const std::string problem = rung_error_text(); // meantBy overwrites the error text
     throw Refused(problem + text::didYouMean(meantBy(name)));
   }
   check(status);
@@ -135,7 +135,7 @@ std::string Cells::whyNoScanEnds() {
   return "the program has not finished a scan within a second";
 }
 
-// The values at the end of a scan.
+// Answers with the values at the end of a scan.
 json Cells::get(const Peer&, const json& request) {
   const std::vector<std::string> names = namesOf(request);
   if (plc_.host().ended()) throw Refused("the program has been switched off");
@@ -183,7 +183,7 @@ void Cells::sendValues(Sink& sink) {
 
 // ---- writing -------------------------------------------------------------------------------------------------------
 
-// The place that the program reads, and the one that the machine writes.
+// The ranges that the program reads under this name, and that the machine writes.
 std::vector<Cells::Range> Cells::rangesOf(const std::string& name) const {
   std::vector<Range> ranges;
   for (const int32_t access : {RUNG_READ, RUNG_WRITE}) {
@@ -196,7 +196,7 @@ std::vector<Cells::Range> Cells::rangesOf(const std::string& name) const {
   return ranges;
 }
 
-// How much of what is wanted lies in the cell of this name.
+// How much of `wanted` lies in the cell of this name.
 Cells::Share Cells::shareOf(const std::string& name, const std::vector<Range>& wanted) const {
   const std::vector<Range> held = rangesOf(name);
   const auto meets = [&](const Range& range) {
@@ -219,7 +219,7 @@ void Cells::refuseProtected(const std::string& name) const {
   }
 }
 
-// Of the pins for the bits of a cell those that write what is wanted; all of them where none has a bit of it.
+// The pins of a cell's bits that write `wanted`; all of its pins if none of its bits is wanted.
 std::string Cells::writerOf(const host::PlcHost::Feed& feed, const std::vector<Range>& wanted) const {
   if (feed.bits.empty()) return feed.by;
   std::vector<std::string> pins;
@@ -233,8 +233,8 @@ std::string Cells::writerOf(const host::PlcHost::Feed& feed, const std::vector<R
   return pins.size() == 1 ? "pin " + pins.front() : "pins " + pins.front() + " to " + pins.back();
 }
 
-// A value that would be gone before the program sees it, or of which a force keeps something. What is to be said of the
-// others: a part of the cell is written by pins, or "".
+// Throws Refused if a write would be overwritten before the program sees it, or if a force holds part of the cell.
+// Otherwise returns "", or the sentence that part of the cell is written by pins.
 std::string Cells::refuseWithoutEffect(const std::string& name) {
   const std::vector<Range> wanted = rangesOf(name);
   for (const rung_force_info& force : plc_.activeForces())

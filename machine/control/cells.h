@@ -1,4 +1,5 @@
-// Cells of the program that runs, by their names: looked up, read, watched, and written where that has an effect.
+// Cells of the running program by name: looks them up, reads them, watches them, and writes those whose new value has
+// an effect.
 #pragma once
 #include <cstdint>
 #include <map>
@@ -13,7 +14,7 @@
 
 namespace rung::control {
 
-// For the thread that serves the plc. What cannot be done throws Refused.
+// Service thread. Throws Refused for requests that cannot be executed.
 class Cells {
 public:
   explicit Cells(PlcAccess& plc);
@@ -21,27 +22,28 @@ public:
   Cells(const Cells&) = delete;
   Cells& operator=(const Cells&) = delete;
 
-  // Answers of docs/control-protocol.md.
+  // Requests of docs/control-protocol.md.
   nlohmann::json get(const Peer& peer, const nlohmann::json& request);
   nlohmann::json watch(const Peer& peer, const nlohmann::json& request);
   nlohmann::json set(const Peer& peer, const nlohmann::json& request);
 
   void gone(const Peer& peer);
-  // What has changed, to those who watch.
+  // Sends changed values to the clients that watch them.
   void sendValues(Sink& sink);
 
-  // The names of a program that runs from now on, for those who mistype one; those of the program before stay known, as
-  // it may come back.
+  // Learns the names of a program that runs from now on, for suggestions when a client mistypes one; the names of the
+  // previous program stay known, as a rollback may bring it back.
   void learnSymbols(const rung_program& program);
   // `access`: enum rung_access.
   rung_cell_info describe(const std::string& name, int32_t access) const;
-  // By where the names are in the program that runs: a reload may have moved them.
+  // Throws Refused if the cell shares bits with a protected cell of the running program: a reload may have moved
+  // either.
   void refuseProtected(const std::string& name) const;
 
 private:
   struct Found;
   struct Watching;
-  struct Range { // of bits of a space
+  struct Range { // bits of a space
     uint32_t space = 0;
     uint64_t first = 0;
     uint64_t count = 0;
@@ -63,7 +65,7 @@ private:
   std::string refuseWithoutEffect(const std::string& name);
 
   PlcAccess& plc_;
-  std::vector<std::string> symbols_, formerSymbols_;       // of the last program, and of the one before
+  std::vector<std::string> symbols_, formerSymbols_;       // of the running program, of the previous one
   std::map<uint32_t, std::unique_ptr<Watching>> watching_; // by peer
 };
 

@@ -14,7 +14,7 @@ using nlohmann::json;
 
 namespace {
 
-constexpr size_t kMostChanges = 1000; // that a report lists
+constexpr size_t kMostChanges = 1000; // largest number in a report
 constexpr uint32_t kMostShadowScans = 100'000;
 constexpr uint32_t kShadowRoom = 256; // runs of tasks that wait to be compared
 constexpr std::chrono::seconds kTakeOverTime(3);
@@ -41,7 +41,7 @@ bool loses(uint32_t kind) {
          kind == RUNG_CHANGE_CUT;
 }
 
-// What becomes of the state when the replacement's program takes over.
+// Report of the state that is lost or changed when the replacement's program takes over.
 json reportOf(const rung_replacement* replacement, std::string& lost) {
   auto info = sized<rung_replacement_info>();
   check(rung_replacement_report(replacement, &info));
@@ -71,7 +71,7 @@ json reportOf(const rung_replacement* replacement, std::string& lost) {
 
 } // namespace
 
-// A file, or what has been compiled for this client.
+// The program in a file, or the one compiled for this client.
 Changes::NextProgram Changes::nextProgram(const Peer& peer, const json& request) {
   NextProgram next;
   if (flagOf(request, "compiled")) {
@@ -86,7 +86,7 @@ Changes::NextProgram Changes::nextProgram(const Peer& peer, const json& request)
 
 // ---- reload and rollback -------------------------------------------------------------------------------------------
 
-// Ends forces; `why`: for those that are being made.
+// Ends all forces; pending changes of forces are refused with the reason `why`.
 json Changes::putInPlace(rung_replacement* replacement, const std::vector<rung_cell>& dead, json report,
                          const char* why) {
   const std::vector<std::string> ended = forces_.activeNames();
@@ -95,16 +95,16 @@ json Changes::putInPlace(rung_replacement* replacement, const std::vector<rung_c
   forces_.programChanged();
   forces_.refusePending(why);
   report["ended_forces"] = ended;
-  report["stopped"] = (done.state.flags & RUNG_STATE_STOPPED) != 0; // by the operator, as the program before
+  report["stopped"] = (done.state.flags & RUNG_STATE_STOPPED) != 0; // by the operator, like the previous program
   if (plc_.host().running() && (done.state.flags & RUNG_STATE_STOPPED) == 0) waitForScan(done.state.scans);
   report["waits"] = !plc_.host().running(); // for a reset
   auto info = sized<rung_replacement_info>();
   check(rung_replacement_report(replacement, &info));
-  report["put_back"] = info.next == 0; // by a fault, already
+  report["put_back"] = info.next == 0; // after an immediate fault
   return report;
 }
 
-// The first one after so many, or its fault: then it is known whether the new program can run at all.
+// Waits for the first scan after number `scans`, or a fault: this shows whether the new program can run at all.
 void Changes::waitForScan(uint64_t scans) {
   constexpr int64_t kMostNs = 300'000'000, kLookNs = 1'000'000;
   constexpr uint32_t kEnd = RUNG_STATE_FAULTED | RUNG_STATE_STOPPED;
@@ -155,7 +155,7 @@ json Changes::rollback(const Peer& peer, const json&) {
   json report = reportOf(replacement_.get(), lost);
   auto info = sized<rung_replacement_info>();
   check(rung_replacement_report(replacement_.get(), &info));
-  report["again"] = info.next == info.program; // the reloaded program, which a rollback has taken away
+  report["again"] = info.next == info.program; // the reloaded program, which a rollback had replaced
   report["pins"] = pins.moved;
   report = putInPlace(replacement_.get(), pins.dead, std::move(report),
                       "the former program has taken over in the meantime; all forces have ended");
@@ -166,7 +166,7 @@ json Changes::rollback(const Peer& peer, const json&) {
 
 // ---- shadow --------------------------------------------------------------------------------------------------------
 
-// Its end is a command, too: the scan thread writes into it.
+// Ends the shadow by a command, because the scan thread writes to it.
 void Changes::endShadow() {
   if (shadow_ == nullptr) return;
   plc_.post({.kind = host::Command::Kind::Shadow, .shadow = nullptr});
@@ -208,7 +208,7 @@ json Changes::shadowReport() {
   auto difference = sized<rung_difference>();
   for (uint32_t i = 0; i < kMostChanges && rung_shadow_difference(shadow_.get(), i, &difference) == RUNG_OK; ++i) {
     json row = {{"name", difference.name}, {"runs", difference.runs}, {"first_us", difference.first_us}};
-    if (difference.type != 0) { // else it is a service that the new program alone requests
+    if (difference.type != 0) { // otherwise a service that only the new program requests
       row["running"] = toJson(difference.type, difference.running);
       row["next"] = toJson(difference.type, difference.next);
     }
@@ -229,7 +229,7 @@ void Changes::compareShadow() {
   finishShadow(std::move(report));
 }
 
-// All of it that is still of use is the report.
+// Keeps the report and ends the shadow.
 void Changes::finishShadow(json report) {
   compared_ = std::move(report);
   endShadow();
@@ -246,7 +246,8 @@ void Changes::gone(const Peer& peer) {
   if (shadow_ == nullptr || shadowsFor_ != peer.number) return;
   try {
     endShadow();
-    // Without a step of the scan thread it ends when it is over. NOLINTNEXTLINE(bugprone-empty-catch)
+    // Without steps of the scan thread, the shadow ends later by itself.
+    // NOLINTNEXTLINE(bugprone-empty-catch)
   } catch (const Refused&) {
   }
 }

@@ -1,4 +1,5 @@
-// Another program in the place of the running one: a reload, what it would do as a shadow before, and the way back.
+// Replaces the running program: reload, rollback, and a shadow, which shows the effect of a new program before it takes
+// over.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -17,29 +18,29 @@
 
 namespace rung::control {
 
-// For the thread that serves the plc. What cannot be done throws Refused.
+// Service thread. Throws Refused for requests that cannot be executed.
 class Changes {
 public:
   Changes(PlcAccess& plc, Cells& cells, Forces& forces, const CompileService& compiler, Programs& programs)
       : plc_(plc), cells_(cells), forces_(forces), compiler_(compiler), programs_(programs) {}
 
-  // Answers of docs/control-protocol.md.
+  // Requests of docs/control-protocol.md.
   nlohmann::json reload(const Peer& peer, const nlohmann::json& request);
   nlohmann::json rollback(const Peer& peer, const nlohmann::json& request);
   nlohmann::json shadow(const Peer& peer, const nlohmann::json& request);
   nlohmann::json compared(const Peer& peer, const nlohmann::json& request);
 
   void gone(const Peer& peer);
-  // Compares what a shadow has recorded, for a part of a turn.
+  // Compares recorded runs of the shadow, at most kMostShadowRuns per turn.
   void compareShadow();
-  // The program has been stopped: nothing more comes that could be compared.
+  // Ends the comparison: a stopped program records nothing more.
   void programStopped();
 
 private:
-  struct NextProgram { // that a request names
+  struct NextProgram { // the program that a request names
     std::optional<Image> opened;
     const Image* image = nullptr;
-    std::string text; // for people
+    std::string text; // for users
     const Image& get() const { return opened ? *opened : *image; }
   };
   NextProgram nextProgram(const Peer& peer, const nlohmann::json& request);
@@ -57,8 +58,8 @@ private:
   Programs& programs_;
   std::unique_ptr<rung_replacement, Ends<rung_replacement, rung_replacement_free>> replacement_; // the last reload
   std::unique_ptr<rung_shadow, Ends<rung_shadow, rung_shadow_free>> shadow_;
-  uint32_t shadowsFor_ = 0; // the peer that has begun the last one
-  nlohmann::json compared_; // of the last one, once it is over; null before
+  uint32_t shadowsFor_ = 0; // peer that started the last shadow
+  nlohmann::json compared_; // report of the last shadow, once it has ended; null before
 };
 
 } // namespace rung::control

@@ -25,10 +25,10 @@ private:
   std::shared_ptr<compile::ForcedCodeMaker> maker_ = compile::ForcedCodeMaker::make();
 };
 
-constexpr std::chrono::seconds kIdle(30); // then another client may take the place
+constexpr std::chrono::seconds kIdle(30); // after this time another client may take the place
 
 const char* nameOf(Compilation::State state) {
-  constexpr const char* kNames[] = {"compiling", "compiled", "errors", "failed"}; // by State
+  constexpr const char* kNames[] = {"compiling", "compiled", "errors", "failed"}; // indexed by State
   return kNames[static_cast<size_t>(state)];
 }
 
@@ -46,7 +46,7 @@ std::string pieceOf(const json& request) {
 std::unique_ptr<Programs> programsOfMachine() { return std::make_unique<OfMachine>(); }
 
 void CompileService::begin(uint32_t owner) {
-  compilation_.reset(); // its process ends
+  compilation_.reset(); // ends its process
   image_.reset();
   refused_.clear();
   packed_.clear();

@@ -1,4 +1,5 @@
-// Where a controller gets other programs from: compiled files, code with forced cells, and sources that a client sends.
+// The sources of new programs for a controller: compiled files, code with forced cells, and source texts that a client
+// sends.
 #pragma once
 #include <chrono>
 #include <cstdint>
@@ -15,24 +16,23 @@
 
 namespace rung::control {
 
-// Files, and the compiler process of the machine; a test has them made already.
+// Access to files and to the compiler process of this machine; tests replace it by programs that are already compiled.
 class Programs {
 public:
   virtual ~Programs() = default;
-  // A compiled program; throws rung::Error where it cannot be loaded.
+  // Loads a compiled program. Throws rung::Error if it cannot be loaded.
   virtual Image open(const std::string& path) = 0;
-  // From now on code with forced cells can be had for a program of this image (rung_forces_new).
+  // From now on rung_forces_new can get code with forced cells for the program of this image.
   virtual void serveForces(const Image& image) = 0;
-  // What is being made is not wanted any more.
+  // Cancels the compilation in progress.
   virtual void abandon() = 0;
 };
 
 std::unique_ptr<Programs> programsOfMachine();
 
-// Sources that a client sends, and the program that is compiled of them in a process of its own: one at a time, of one
-// client at a time.
-// For the thread that answers requests, which never waits here. The answers are those of docs/control-protocol.md; what
-// cannot be done throws Refused.
+// Compiles sources that a client sends in a separate process: one compilation at a time, for one client at a time.
+// Service thread, which never waits here. The requests are those of docs/control-protocol.md; throws Refused for those
+// that cannot be executed.
 class CompileService {
 public:
   explicit CompileService(PlcAccess& plc) : plc_(plc) {}
@@ -40,9 +40,9 @@ public:
   nlohmann::json sources(const Peer& peer, const nlohmann::json& request);
   nlohmann::json compile(const Peer& peer, const nlohmann::json& request);
   nlohmann::json compiled(const Peer& peer, const nlohmann::json& request);
-  // What the client's sources have become; throws Refused where they have not been compiled.
+  // The program compiled from the client's sources; throws Refused if there is none.
   const Image& image(const Peer& peer) const;
-  // Its process ends, too.
+  // Ends the client's compiler process, too.
   void gone(const Peer& peer);
 
 private:
@@ -58,7 +58,7 @@ private:
   std::string packed_;
   std::unique_ptr<compile::Compilation> compilation_;
   std::optional<Image> image_;
-  std::string refused_; // why the image could not be loaded
+  std::string refused_; // reason why the image could not be loaded
 };
 
 } // namespace rung::control

@@ -20,10 +20,10 @@ using nlohmann::json;
 
 struct Controller::Request {
   const char* name = nullptr;
-  std::optional<host::Remote> permission; // that the mapping file must give
+  std::optional<host::Remote> permission; // that the mapping file must grant
   json (*answer)(Controller&, const Peer&, const json&) = nullptr;
 
-  // Answered by a function of one of the parts, or of the controller itself.
+  // A request that is answered by a member function of one of the parts, or of the controller itself.
   template <auto part, auto function>
   static json by(Controller& c, const Peer& peer, const json& request) {
     return (c.*part.*function)(peer, request);
@@ -62,7 +62,7 @@ const Controller::Request Controller::kRequests[] = {
     {"served", host::Remote::Serve, Request::by<&Controller::services_, &Services::served>},
 };
 
-// Throws Refused where there is no such one, or it may not be made.
+// Throws Refused if the request is unknown or not permitted.
 const Controller::Request& Controller::requestOf(const json& request) const {
   if (!request.is_object()) throw Refused("found " + std::string(request.type_name()) + ", expected an object");
   const std::string wanted = textOf(request, "do");
@@ -84,9 +84,9 @@ json Controller::answer(const Peer& peer, const json& request) {
     const Request& wanted = requestOf(request);
     services_.heard(peer);
     answer = wanted.answer(*this, peer, request);
-    if (answer.is_null()) return answer; // it comes later
+    if (answer.is_null()) return answer; // it follows later
     if (!answer.contains("ok")) answer["ok"] = true;
-  } catch (const std::exception& problem) { // Refused, or no memory
+  } catch (const std::exception& problem) { // Refused, or out of memory
     answer = {{"ok", false}, {"error", problem.what()}};
   }
   if (request.is_object() && request.contains("id")) answer["id"] = request["id"];
@@ -165,7 +165,7 @@ void Controller::gone(const Peer& peer) {
 void Controller::serveProgram(Sink* sink) {
   host::PlcHost& plc = plc_.host();
   std::vector<std::string> reports;
-  const bool isStopped = !plc.running(); // a restart is done in this turn
+  const bool isStopped = !plc.running(); // a restart is finished in this turn
   plc.serve(reports);
   if (std::exchange(restarts_, plc.restarts()) != plc.restarts()) messages_.programRestarted(sink);
   for (const std::string& text : reports) messages_.report(text, sink);

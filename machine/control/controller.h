@@ -1,5 +1,5 @@
-// What rungctl may ask of a program that runs between the pins of a host (docs/control-protocol.md): the table of all
-// requests, and what the parts that answer them do in each turn of the thread that serves.
+// The requests that rungctl can send to a program that runs between the pins of a host (docs/control-protocol.md): the
+// table of all requests, and the work of the parts that answer them in each turn of the service thread.
 #pragma once
 #include <functional>
 #include <memory>
@@ -22,24 +22,24 @@
 
 namespace rung::control {
 
-// For the thread that serves the plc; commands go to the scan thread, which it waits for.
+// Service thread. Commands go to the scan thread; the service thread waits for their results.
 class Controller final : public Handler {
 public:
-  // `image` is what the host began with. `log`, which outlives this, gets what the program and its host report, and
-  // every change that a client has made.
+  // `image` is the program that the host started with. `log`, which must outlive this object, receives the reports of
+  // the program and its host, and every change that a client has made.
   Controller(std::string host, host::PlcHost& plc, const Image& image, Log& log,
              std::unique_ptr<Programs> programs = programsOfMachine());
-  ~Controller() override; // before the plc
+  ~Controller() override; // must run before the plc is destroyed
   Controller(const Controller&) = delete;
   Controller& operator=(const Controller&) = delete;
 
-  // Messages are kept in this file, too. Before the first turn.
+  // Also writes messages to this file. To be called before the first turn.
   void keepHistory(const std::string& path) { messages_.keepHistory(path); }
-  // What the host adds to its status. Before the first request.
+  // Sets a function that adds members to the host's status. To be called before the first request.
   void addToStatus(std::function<void(nlohmann::json&)> add) { status_.addToStatus(std::move(add)); }
 
-  // A simulated control around the program: `act` does an event of it, in the scan thread, and says what is wrong.
-  // Before the first request.
+  // Sets the simulated control around the program: `act` is called in the scan thread, executes an event of the
+  // control, and returns "" or an error message. To be called before the first request.
   using Event = std::function<std::string(const std::string& name, const nlohmann::json& keys)>;
   void setSimulation(Event act) { simulation_ = std::move(act); }
 
@@ -47,11 +47,11 @@ public:
   nlohmann::json answer(const Peer& peer, const nlohmann::json& request) override;
   void gone(const Peer& peer) override;
 
-  // In each turn of the thread, before the requests of clients: what the plc needs from time to time and reports then,
-  // and what the program has shown. `sink`: null where there are no clients.
+  // Called in each turn, before the requests of clients: serves the plc, and reports its faults and restarts and the
+  // program's messages. `sink` is null if there are no clients.
   void serveProgram(Sink* sink);
-  // After them: sends what has changed to those who watch, the program's questions to the client that serves it, and
-  // the answer to each client whose force is done; compares what a shadow has recorded, for a part of a turn.
+  // Called after them: sends changed values to the clients that watch, the program's requests to the client that serves
+  // it, and the answer to each client whose force is finished; compares recorded runs of a shadow.
   void serveClients(Sink& sink);
 
 private:
@@ -75,8 +75,8 @@ private:
   Forces forces_;
   Changes changes_;
   Services services_;
-  Event simulation_;      // empty: there is none
-  uint32_t restarts_ = 0; // of the plc, when messages were noted
+  Event simulation_;      // empty: no simulation
+  uint32_t restarts_ = 0; // restarts of the plc when messages were last reported
 };
 
 } // namespace rung::control

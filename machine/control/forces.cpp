@@ -26,16 +26,16 @@ struct Forces::HeldCell {
 struct Forces::Change {
   Peer peer;
   std::vector<HeldCell> before;
-  std::vector<HeldCell> cells; // from then on
+  std::vector<HeldCell> cells; // after the change
   std::string text;            // for the log
-  json answer;                 // when it is done
-  json id;                     // of the request, where that has one: {"id": ID}, else {}
-  std::string refused = {};    // why it will not be done any more
+  json answer;                 // once the change is done
+  json id;                     // {"id": ID} if the request has an ID, otherwise {}
+  std::string refused = {};    // why the change has been cancelled
 };
 
 namespace {
 
-// Of a request, for an answer that comes later.
+// The ID of a request, for a later answer.
 json idOf(const json& request) { return request.contains("id") ? json{{"id", request["id"]}} : json::object(); }
 
 } // namespace
@@ -68,7 +68,7 @@ void Forces::refuseWhilePending() const {
     throw Refused("another force is being compiled; try again later, or release all: unforce --all");
 }
 
-// Nothing: the compiler is at work on its code.
+// Returns nothing while the compiler is making the code.
 std::optional<Forces::ForceSet> Forces::prepared(const Change& change) {
   if (change.cells.empty()) return ForceSet();
   std::vector<rung_forced_cell> cells;
@@ -82,13 +82,13 @@ std::optional<Forces::ForceSet> Forces::prepared(const Change& change) {
 
 void Forces::putInEffect(const Change& change, ForceSet forces) {
   plc_.post({.kind = host::Command::Kind::Force, .forces = forces.get()});
-  forces_ = std::move(forces); // the former set has ended
+  forces_ = std::move(forces); // the previous set has ended
   heldNames_.clear();
   for (const HeldCell& cell : change.cells) heldNames_.push_back(cell.name);
   plc_.logChange(change.peer, change.text);
 }
 
-// Its answer; null where that comes later.
+// Returns the answer; null if it follows later.
 json Forces::begin(Change change) {
   if (std::optional<ForceSet> forces = prepared(change)) {
     putInEffect(change, std::move(*forces));

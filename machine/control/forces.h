@@ -1,4 +1,4 @@
-// Cells that clients force: the set of all forces, and a change of it whose code the compiler is at work on.
+// Cells that clients force: the set of all forces, and a change of it for which the compiler is still making code.
 #pragma once
 #include <memory>
 #include <optional>
@@ -15,7 +15,7 @@
 
 namespace rung::control {
 
-// For the thread that serves the plc. What cannot be done throws Refused.
+// Service thread. Throws Refused for requests that cannot be executed.
 class Forces {
 public:
   Forces(PlcAccess& plc, const Cells& cells, Programs& programs);
@@ -23,23 +23,24 @@ public:
   Forces(const Forces&) = delete;
   Forces& operator=(const Forces&) = delete;
 
-  // Answers of docs/control-protocol.md; null: it comes by finishPending.
+  // Requests of docs/control-protocol.md. A null answer follows later, from finishPending.
   nlohmann::json force(const Peer& peer, const nlohmann::json& request);
   nlohmann::json unforce(const Peer& peer, const nlohmann::json& request);
   nlohmann::json forced(const Peer& peer, const nlohmann::json& request);
 
   void gone(const Peer& peer);
-  // Answers the change whose code is made, or that is refused.
+  // Answers the pending change once its code has been made, or was refused.
   void finishPending(Sink& sink);
-  // What has happened meanwhile ends forces, too.
+  // Refuses the pending change: the event that `why` describes has ended all forces.
   void refusePending(const std::string& why);
 
   std::vector<std::string> activeNames();
-  // Another program has taken over: what was forced in the one before is not needed any more.
+  // The program has been replaced: code with forced cells of the previous one is no longer needed.
   void programChanged() { forces_.reset(); }
-  // Names of the cells that were forced, as far as this thread has heard, as it hears that they are no more; "": none.
+  // Returns, and forgets, the names of the cells that were last known to be forced, when all forces have ended; "":
+  // none.
   std::string takeEndedNames();
-  // The same at the end of a line of the log.
+  // The same as text for the end of a log line.
   std::string endedForces();
 
 private:
@@ -57,7 +58,7 @@ private:
   const Cells& cells_;
   Programs& programs_;
   std::vector<std::string> heldNames_;
-  std::unique_ptr<Change> pending_; // for whose code the compiler is at work
+  std::unique_ptr<Change> pending_; // the change for which code is being made
   ForceSet forces_;
 };
 

@@ -46,7 +46,7 @@ void History::change(Entry& entry) {
 void History::come(const Key& key, const std::string& text, int64_t nowS, bool again) {
   const auto on = shown_.find(key);
   if (on != shown_.end() && on->second.text == text) return;
-  if (on != shown_.end()) go(key, nowS); // with other values
+  if (on != shown_.end()) go(key, nowS); // the text has changed
   if (shown_.size() == kMostShown) return;
   Entry* former = again ? lastOf(key, text) : nullptr;
   if (former != nullptr) {
@@ -107,7 +107,7 @@ std::string lineOf(const History::Entry& entry) {
   return line.dump(-1, ' ', false, json::error_handler_t::replace) + "\n";
 }
 
-// Nothing: it is not a line of an entry.
+// Nothing: the text is not a line of an entry.
 std::optional<History::Entry> entryOf(std::string_view text) try {
   const json line = json::parse(text);
   History::Entry entry{
@@ -125,7 +125,7 @@ std::optional<History::Entry> entryOf(std::string_view text) try {
 } // namespace
 
 bool History::mayBeWritten(const Entry& entry, int64_t nowS) const {
-  constexpr uint32_t kAtOnce = 2; // that it came, and that it went
+  constexpr uint32_t kAtOnce = 2; // the appearance and the disappearance
   const int64_t since = nowS - entry.lineS;
   return entry.changed && lines_ < kMostLines && (entry.lines < kAtOnce || since >= kPauseS || since < 0);
 }
@@ -179,7 +179,7 @@ bool History::read(const std::string& text) {
   return good;
 }
 
-// What is written when, and the thread that writes.
+// The thread that writes the file, and the choice between appending and replacing.
 
 HistoryFile::HistoryFile(History& history, std::string path) : history_(history), path_(std::move(path)) {
   read();
@@ -198,7 +198,7 @@ HistoryFile::~HistoryFile() {
   thread_.join();
 }
 
-// A part of a line at its end is one of a crash; the first write leaves it out.
+// An incomplete last line is the result of a crash; the first write removes it.
 void HistoryFile::read() {
   std::string text, problem;
   if (!runtime::systemDisk().read(path_, 2 * kMostBytes, text, problem)) return;
@@ -260,14 +260,14 @@ void HistoryFile::work() {
   }
 }
 
-// A new file is one that replaces nothing: it is in its folder, too, when it is written.
+// A new file is also written by `replace`, which syncs its directory entry as well.
 std::string HistoryFile::write() try {
   if (!replaces_ && size_ != 0) return append();
   std::string error;
   const auto* bytes = reinterpret_cast<const uint8_t*>(text_.data());
   if (runtime::systemDisk().replace(path_, {bytes, text_.size()}, error)) size_ = text_.size();
   return error;
-} catch (const std::exception& thrown) { // no memory
+} catch (const std::exception& thrown) { // out of memory
   return thrown.what();
 }
 

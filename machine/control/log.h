@@ -22,33 +22,33 @@ public:
   Log(const Log&) = delete;
   Log& operator=(const Log&) = delete;
 
-  // Writes a line. False: it was written so often within kPauseS that it is only counted.
+  // Writes a line. Returns false if the line was written so often within kPauseS that it is only counted.
   bool line(const std::string& text);
-  // Writes a line even if it is repeated: for actions of persons.
+  // Writes a line even if it is repeated: for actions of users.
   void always(const std::string& text) { write(clock_.dateS(), text); }
-  // Called in each turn: writes how often a line was counted, when it stops coming, or after kPauseS.
+  // Called in each turn: writes how often a line was counted, when it stops repeating, or after kPauseS.
   void tick() { settle(clock_.dateS()); }
 
-  static constexpr uint32_t kMost = 5;   // times that a line is written
-  static constexpr int64_t kPauseS = 10; // in so many seconds
+  static constexpr uint32_t kMost = 5;   // how often a line is written
+  static constexpr int64_t kPauseS = 10; // within this many seconds
 
 private:
   struct Known {
     std::string text;
     int64_t firstS = 0;
     int64_t lastS = 0;
-    uint32_t times = 0;   // since the first
-    uint32_t counted = 0; // of these, not written
+    uint32_t times = 0;   // repetitions since firstS
+    uint32_t counted = 0; // of these, only counted
   };
   void write(int64_t seconds, const std::string& text);
   void settle(int64_t now);
   void writeCount(const Known& known);
 
-  static constexpr size_t kKnown = 64; // texts, those that have come last
+  static constexpr size_t kKnown = 64; // number of texts remembered: the most recent ones
 
   runtime::Clock& clock_;
   Write write_;
-  std::list<Known> known_; // the latest one first
+  std::list<Known> known_; // most recent first
 };
 
 } // namespace rung::control

@@ -15,7 +15,7 @@ using nlohmann::json;
 
 namespace {
 
-constexpr size_t kMostRecent = 200; // messages of an answer without the history
+constexpr size_t kMostRecent = 200; // messages in an answer without the history
 
 json jsonOf(const History& history, const History::Entry& entry) {
   json out = {{"text", entry.text}, {"came", entry.cameS}, {"on", history.isOn(entry)}};
@@ -26,7 +26,7 @@ json jsonOf(const History& history, const History::Entry& entry) {
   return out;
 }
 
-// The last ones, unless `all` are asked for; what is on is always among them.
+// The most recent entries, or all if `all` is set; messages that are on are always included.
 std::vector<History::Entry> wantedOf(const History& history, bool all) {
   std::vector<History::Entry> wanted;
   size_t recent = 0;
@@ -87,7 +87,7 @@ void Messages::pass(const rung_message_info& message, Sink* sink) {
     return;
   }
   std::string text = std::string("message ") + message.text;
-  while (text.ends_with(' ')) text.pop_back(); // of a number without a text
+  while (text.ends_with(' ')) text.pop_back(); // after a number without a text
   const bool isNew = log_.line(text);
   const bool isLogged = message.op == RUNG_MESSAGE_LOG;
   if (!isLogged)
@@ -102,7 +102,7 @@ void Messages::report(const std::string& text, Sink* sink) {
   tellFollowers(sink, "message", text, false);
 }
 
-// `logged`: for the log alone, not for the operator.
+// `logged`: a message only for the log, not for the operator.
 void Messages::tellFollowers(Sink* sink, const char* event, const std::string& text, bool logged) {
   if (sink == nullptr) return;
   const std::string line = lineOf(plc_.clock().dateS(), text);

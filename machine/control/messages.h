@@ -1,5 +1,5 @@
-// What the program and its host report: each line goes to the log, is kept for those who ask later, and is sent to
-// those who follow.
+// Reports of the program and its host: each line is written to the log, added to the history for later requests, and
+// sent to the clients that follow.
 #pragma once
 #include <memory>
 #include <string>
@@ -14,26 +14,26 @@
 
 namespace rung::control {
 
-// For the thread that serves the plc; null for `sink`: there are no clients.
+// Service thread. `sink` is null if there are no clients.
 class Messages {
 public:
   Messages(host::PlcHost& plc, Log& log) : plc_(plc), log_(log) {}
-  ~Messages(); // before the plc
+  ~Messages(); // must run before the plc is destroyed
   Messages(const Messages&) = delete;
   Messages& operator=(const Messages&) = delete;
 
-  // They are kept in this file, too. Before the first turn.
+  // Also writes messages to this file. To be called before the first turn.
   void keepHistory(const std::string& path) { historyFile_ = std::make_unique<HistoryFile>(history_, path); }
 
-  // The answer of docs/control-protocol.md.
+  // The request of docs/control-protocol.md.
   nlohmann::json messages(const Peer& peer, const nlohmann::json& request);
   void gone(const Peer& peer) { std::erase(following_, peer.number); }
 
   void report(const std::string& text, Sink* sink);
-  // The program has been switched on again: none of its messages is on.
+  // The program has been switched on again, so none of its messages is on.
   void programRestarted(Sink* sink);
-  // In each turn, once the plc has been served: what the program has shown, as much as fits into it; the history goes
-  // to its file.
+  // Called in each turn, after the plc was served: reports the program's messages, at most kMostMessages, and writes
+  // the history to its file.
   void work(Sink* sink);
 
 private:
@@ -45,8 +45,8 @@ private:
   host::PlcHost& plc_;
   Log& log_;
   History history_;
-  std::unique_ptr<HistoryFile> historyFile_; // null: it is in memory alone
-  std::vector<uint32_t> following_;          // peers
+  std::unique_ptr<HistoryFile> historyFile_; // null: the history is only in memory
+  std::vector<uint32_t> following_;          // numbers of peers
 };
 
 } // namespace rung::control

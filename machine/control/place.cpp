@@ -21,7 +21,7 @@ constexpr std::string_view kEnding = ".sock";
 
 constexpr mode_t kHisAlone = 0700;
 
-// The mode of a folder of that user; nothing where the path is none.
+// The mode of a folder that belongs to the user; nothing if the path is not such a folder.
 std::optional<mode_t> modeOfFolder(const std::string& path, uid_t user) {
   struct stat about{};
   if (lstat(path.c_str(), &about) != 0 || !S_ISDIR(about.st_mode) || about.st_uid != user) return std::nullopt;
@@ -49,7 +49,7 @@ std::vector<std::string> socketFolders(uid_t user) {
   const std::string early = "/tmp/rung-" + number;
   if (!modeOfFolder("/run/user/" + number, user)) return {early};
   std::vector<std::string> folders = {"/run/user/" + number + "/rung"};
-  if (modeOfFolder(early, user) == kHisAlone) folders.push_back(early); // anybody can make a folder there
+  if (modeOfFolder(early, user) == kHisAlone) folders.push_back(early); // every user can create a folder in /tmp
   return folders;
 }
 
@@ -83,7 +83,7 @@ bool isServed(const std::string& path) {
 
 std::string wrongHostName(const std::string& name) {
   constexpr std::string_view kAllowed = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_.";
-  constexpr size_t kLongest = 60; // a socket's path has 107 characters
+  constexpr size_t kLongest = 60; // the path of a socket has at most 107 characters
   if (name.size() > kLongest)
     return "found a name of " + std::to_string(name.size()) + " characters for a host, expected at most " +
            std::to_string(kLongest);

@@ -1,4 +1,4 @@
-// The places of the sockets by which rungctl reaches the hosts of a user.
+// Paths of the sockets through which rungctl reaches the hosts of a user.
 #pragma once
 #include <sys/types.h>
 #include <sys/un.h>
@@ -17,10 +17,11 @@ std::string socketPath(const std::string& folder, const std::string& host);
 std::string socketOf(uid_t user, const std::string& host);
 // Throws std::runtime_error if the path is too long for a socket.
 sockaddr_un socketAddress(const std::string& path);
-// Whether a host listens at a socket; a host that was killed leaves its socket. Throws as socketAddress.
+// Returns whether a host listens at a socket; a host that was killed leaves its socket. Throws as socketAddress.
 bool isServed(const std::string& path);
 
-// Checks a host's name: letters, digits, '-', '_' and '.', not at the beginning. "", or what is wrong with it.
+// Checks a host's name: at most 60 letters, digits, '-', '_' and '.', no '.' at the beginning. Returns "", or the
+// error.
 std::string wrongHostName(const std::string& name);
 struct Place {
   std::string host;
@@ -32,8 +33,8 @@ std::vector<Place> placesOf(uid_t user);
 // The running hosts, sorted. Throws as placesOf.
 std::vector<std::string> hostsOf(uid_t user);
 
-// Creates the folder for a new host, accessible only to its user. Throws std::runtime_error if something else has its
-// place.
+// Creates the folder for a new host, accessible only to its user. Throws std::runtime_error if the path exists and is
+// not such a folder.
 std::string prepareFolder(uid_t user);
 
 } // namespace rung::control

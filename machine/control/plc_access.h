@@ -1,5 +1,5 @@
-// What all parts of the controller do with the program that runs: commands to its scan thread, and a line in the log
-// for everything that a person changes.
+// Access of all parts of the controller to the running program: commands to its scan thread, and a log line for every
+// change by a user.
 #pragma once
 #include <chrono>
 #include <optional>
@@ -12,18 +12,18 @@
 
 namespace rung::control {
 
-// For the thread that serves the plc; a command waits for the scan thread.
+// Service thread, which waits for the scan thread while a command is executed.
 class PlcAccess {
 public:
   PlcAccess(host::PlcHost& host, Log& log) : host_(host), log_(log) {}
 
   host::PlcHost& host() const { return host_; }
   rung_instance* instance() const { return host_.instance(); }
-  rung_program_info program() const; // that runs
+  rung_program_info program() const; // the running program
 
-  // With its results; throws Refused where it is not done.
+  // Returns the command with its results; throws Refused if it was not executed.
   host::Command post(host::Command command, std::chrono::milliseconds time = host::PlcHost::kPatience);
-  // Nothing while no thread scans the program.
+  // Nothing if no thread scans the program.
   std::optional<rung_state> state();
   std::vector<rung_force_info> activeForces();
 

@@ -38,7 +38,7 @@ std::string nameOf(uid_t user) {
 
 std::string textOf(const json& line) { return line.dump(-1, ' ', false, json::error_handler_t::replace); }
 
-// Stacks of hosts are small, and JSON is written recursively.
+// Threads of hosts have small stacks, and JSON is written recursively.
 bool isDeep(std::string_view line) {
   constexpr int kMostLevels = 8;
   int levels = 0;
@@ -59,7 +59,7 @@ bool isDeep(std::string_view line) {
 
 json problemOf(const std::string& text) { return {{"ok", false}, {"error", text}}; }
 
-// Where a host of this name listens, in a folder that is made for it.
+// The socket path for a host with this name; creates its folder.
 std::string placeOf(const std::string& host, uid_t user) {
   if (const std::string wrong = wrongHostName(host); !wrong.empty()) throw std::runtime_error(wrong);
   std::string path = socketPath(prepareFolder(user), host);
@@ -70,10 +70,10 @@ std::string placeOf(const std::string& host, uid_t user) {
 
 host::Socket listenAt(const std::string& path) {
   const sockaddr_un address = socketAddress(path);
-  unlink(path.c_str()); // of a host that was killed
+  unlink(path.c_str()); // left by a host that was killed
   host::Socket made(socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
   if (made.number() < 0) refuse(path);
-  // Every user who may use the folder may connect; the permissions of the user are checked then.
+  // Any user with access to the folder may be able to connect; the identity of each client is checked after that.
   if (bind(made.number(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0 ||
       chmod(path.c_str(), 0600) != 0 || listen(made.number(), static_cast<int>(Server::kMostPeers)) != 0)
     refuse(path);
@@ -129,7 +129,7 @@ void Server::accept(host::Socket made) {
   clients_.push_back(std::move(client));
 }
 
-// A line at a time: others ask, too.
+// Answers one line, so that other clients get their turn.
 void Server::read(Client& client) {
   client.connection.receive();
   const std::optional<std::string> line = client.connection.line();
@@ -169,7 +169,7 @@ void Connection::end(std::string problem) {
   problem_ = std::move(problem);
 }
 
-// At most one line more than is taken at a time: a client that sends too much waits in its own buffers.
+// Buffers at most one line more than is processed: a client that sends too much has to wait.
 void Connection::receive() {
   char bytes[16384];
   while (!ended_ && in_.size() <= longest_) {
@@ -181,7 +181,7 @@ void Connection::receive() {
     else if (got < 0 && (errno == EAGAIN || errno == EWOULDBLOCK))
       return;
     else
-      return hasLine() ? void() : end("the other side has ended the connection"); // it may have sent before
+      return hasLine() ? void() : end("the other side has ended the connection"); // the peer may have sent lines before
   }
 }
 

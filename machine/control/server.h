@@ -1,4 +1,4 @@
-// Lines between two processes, of a bounded length, without waiting.
+// A non-blocking connection that carries lines of bounded length between two processes.
 #pragma once
 #include <cstdint>
 #include <list>
@@ -19,26 +19,26 @@ namespace rung::control {
 class Connection {
 public:
   static constexpr size_t kLongestRequest = size_t{64} << 10;
-  static constexpr size_t kLongestAnswer = size_t{4} << 20; // and the most that waits until the other side takes it
+  static constexpr size_t kLongestAnswer = size_t{4} << 20; // and the longest backlog of unsent bytes
 
-  // `longest` is the longest line that it takes.
+  // `longest` is the longest line that it accepts.
   Connection(host::Socket socket, size_t longest) : socket_(std::move(socket)), longest_(longest) {}
 
   int socket() const { return socket_.number(); }
-  // The other side has gone, or breaks the rules: `problem` says which. No more is read or sent.
+  // The peer has disconnected or broken the protocol: `problem` is the reason. Nothing more is read or sent.
   bool ended() const { return ended_; }
   const std::string& problem() const { return problem_; }
   bool wantsToSend() const { return !ended_ && !out_.empty(); }
 
-  // Takes what has come.
+  // Reads the available bytes.
   void receive();
   bool hasLine() const { return in_.find('\n') != std::string::npos; }
-  // The next whole line, without its end.
+  // The next complete line, without its line end.
   std::optional<std::string> line();
-  // A line; sent as far as the other side takes it.
+  // Queues a line, and sends as much as the socket takes.
   void send(std::string_view line);
   void sendMore();
-  // After what is sent.
+  // Ends the connection once the queued lines are sent.
   void end(std::string problem);
 
 private:
@@ -49,53 +49,53 @@ private:
   std::string in_, out_;
 };
 
-// Where a host's answers and events go: to the clients of a socket, or to a test.
+// Destination of a host's answers and events: the clients of a socket, or a test.
 
 class Sink {
 public:
   virtual ~Sink() = default;
-  // To the client with this number; drops the event if that client has gone.
+  // Sends an event to the client with this number; drops it if that client has disconnected.
   virtual void send(uint32_t peer, const nlohmann::json& event) = 0;
-  // The answer that a handler has not given before. Until then nothing else that the client sends is looked at.
+  // Sends an answer that the handler has deferred. Until then no further request of the client is processed.
   virtual void answer(uint32_t peer, const nlohmann::json& answer) = 0;
 };
 
-// The socket of a host: its user, and root, may send requests, one JSON object a line (docs/control-protocol.md).
+// The socket of a host: its user, and root, may send requests, one JSON object per line (docs/control-protocol.md).
 
 constexpr int kProtocol = 1;
 
-// Who asks, as the system knows them.
+// A client, with the identity that the system reports.
 struct Peer {
-  uint32_t number = 0; // of the connection, from 1, never used again
+  uint32_t number = 0; // number of the connection, from 1, never reused
   uid_t user = 0;
   pid_t process = 0;
-  std::string name; // of the user; the number where there is none
+  std::string name; // of the user; the user's number if there is no name
 };
 
 class Handler {
 public:
   virtual ~Handler() = default;
-  // What the host says first.
+  // The first line that the host sends.
   virtual nlohmann::json greeting() = 0;
-  // The answer to one request, any JSON; null: it comes later, by Sink::answer.
+  // The answer to one request, any JSON; null: it follows later through Sink::answer.
   virtual nlohmann::json answer(const Peer& peer, const nlohmann::json& request) = 0;
   virtual void gone(const Peer& peer) = 0;
 };
 
-// For one thread.
+// Used by one thread.
 class Server final : public Sink {
 public:
   static constexpr size_t kMostPeers = 16;
 
-  // Listens at the place of this host. Throws std::runtime_error: something is wrong with it, or another host has it.
+  // Listens at the socket of this host. Throws std::runtime_error if the path is not usable, or another host has it.
   Server(const std::string& host, uid_t user, Handler& handler);
-  ~Server() override; // nothing is left of its place
+  ~Server() override; // removes the socket
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;
 
-  // Adds what it waits for, for poll. True: a request is here already.
+  // Appends the sockets to be polled. Returns true if a complete request is already here.
   bool awaits(std::vector<pollfd>& sockets);
-  // These, after that: answers what has come, one request of each client.
+  // Evaluates these sockets after the poll: answers one request of each client.
   void serve(std::span<const pollfd> sockets);
   void send(uint32_t peer, const nlohmann::json& event) override;
   void answer(uint32_t peer, const nlohmann::json& answer) override;
@@ -105,7 +105,7 @@ private:
   struct Client {
     Peer peer;
     Connection connection;
-    bool waits = false; // for an answer
+    bool waits = false; // for a deferred answer
     bool hasRequest() const { return !waits && connection.hasLine(); }
   };
   void accept(host::Socket made);

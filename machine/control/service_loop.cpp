@@ -48,7 +48,7 @@ void ServiceLoop::wait() {
   }
   if (signals_ != nullptr) awaited_.push_back({signals_->file(), POLLIN, 0});
   poll(awaited_.data(), awaited_.size(), static_cast<int>(time.count()));
-  if (signals_ != nullptr) (void)signals_->came(); // it is taken: the next turns wait
+  if (signals_ != nullptr) (void)signals_->came(); // reads the signal, so that the next turns wait again
 }
 
 void ServiceLoop::answer(const Served& served) const {

@@ -1,6 +1,6 @@
-// The loop of the thread that serves the programs of a process, in rung-run and in LinuxCNC's component: in each turn
-// it does for all of them what they need from time to time, waits for their clients, signals and time, and answers. One
-// poll is all that it waits in, so that the component, in a process with root's rights, needs no library for it.
+// The service thread's loop, in rung-run and in LinuxCNC's component. In each turn it does the periodic work of all
+// programs of the process, waits for clients, signals and time, and answers. It waits only in one poll, so that the
+// component, in a process with root's rights, needs no library for it.
 #pragma once
 #include <chrono>
 #include <exception>
@@ -14,13 +14,13 @@
 
 namespace rung::control {
 
-// Signals that come to the process, as something to wait for. They do nothing else from then on, for this thread and
-// those that it begins; made before these, it outlives them.
+// Signals of the process as a file to poll. They have no other effect from then on in this thread and in those that it
+// starts; the object must be made before these threads and outlive them.
 class Signals {
 public:
   // Throws std::system_error.
   explicit Signals(std::initializer_list<int> signals);
-  // Once one of them has come: true.
+  // Returns true once one of the signals has arrived.
   bool came() noexcept;
   int file() const noexcept { return file_.number(); }
 
@@ -31,26 +31,26 @@ private:
 
 class ServiceLoop {
 public:
-  // A turn waits no longer.
+  // The longest wait of a turn.
   static constexpr std::chrono::milliseconds kTurn{20};
   using Complain = std::function<void(const char* problem)>;
 
   struct Program {
     Controller* controller = nullptr;
-    Server* server = nullptr;            // null: no client can reach it
-    std::function<void()> report = {};   // what its host has to say besides
-    std::function<void()> turnDone = {}; // once all is answered, for a watchdog
+    Server* server = nullptr;            // null: no client can connect
+    std::function<void()> report = {};   // reports other than those of the controller
+    std::function<void()> turnDone = {}; // called once all requests are answered, for a watchdog
   };
 
-  // `complain` gets what a piece of work has failed with; the others are done all the same. `signals`, which outlive
-  // the loop, end its waiting; null: none do.
+  // `complain` receives the reason when one item of work fails; the other items are still done. `signals`, which must
+  // outlive the loop, end its wait; null: no signals.
   explicit ServiceLoop(Complain complain, Signals* signals = nullptr)
       : complain_(std::move(complain)), signals_(signals) {}
-  // What it has outlives the loop.
+  // The objects of `program` must outlive the loop.
   void add(Program program) { programs_.push_back({std::move(program)}); }
 
   void turn() noexcept;
-  // False: it has thrown, where memory is short.
+  // Returns false if the work has thrown, for example because memory is short.
   template <class Work>
   bool guarded(Work&& work) const noexcept {
     try {
@@ -66,7 +66,7 @@ public:
 
 private:
   struct Served : Program {
-    size_t first = 0, end = 0; // of its sockets
+    size_t first = 0, end = 0; // range of its sockets in awaited_
   };
   void wait();
   void answer(const Served& served) const;

@@ -114,7 +114,7 @@ json Services::served(const Peer& peer, const json& request) {
   return json::object();
 }
 
-// The waiting requests have no provider any more.
+// The provider of the waiting requests has disconnected.
 void Services::gone(const Peer& peer) {
   if (peer.number == provider_) lose("the connection has ended");
 }
@@ -137,10 +137,10 @@ void Services::work(Sink& sink) {
   for (int i = 0; i < turn::kMostServices && plc_.nextRequest(request); ++i) pass(sink, request);
 }
 
-// A provider that serves no more learns of it before anything moves again.
+// Informs a provider that no longer serves before anything moves again.
 void Services::checkService(Sink& sink) {
   const int64_t silentNs = plc_.clock().nowNs() - heardNs_;
-  if (!plc_.live().served.load(std::memory_order_acquire)) { // the program was restarted: what waits is not its own
+  if (!plc_.live().served.load(std::memory_order_acquire)) { // waiting requests are from an earlier run
     sink.send(std::exchange(provider_, 0), {{"event", "unserved"}});
     plc_.live().known.store(false, std::memory_order_release);
     waiting_.clear();
@@ -158,7 +158,7 @@ void Services::pass(Sink& sink, const rung_request& request) {
     return;
   }
   if (!plc_.live().served.load(std::memory_order_relaxed))
-    return refuse(request.ticket); // it has gone since the program asked
+    return refuse(request.ticket); // the provider has disconnected since the request
   const int64_t end = plc_.clock().nowNs() + std::chrono::nanoseconds(kPatience).count();
   waiting_[request.ticket] = {request, !operation->write,
                               operation->untilOver ? std::numeric_limits<int64_t>::max() : end};
@@ -174,7 +174,7 @@ void Services::refuseLate() {
   });
 }
 
-// As the control does without a provider (rtlib/nc/control/control.h).
+// The same answer as without a provider (rtlib/nc/control/control.h).
 void Services::refuse(uint32_t ticket) { plc_.answer({.size = sizeof(rung_reply), .ticket = ticket, .error = 1}); }
 
 } // namespace rung::control

@@ -1,4 +1,4 @@
-// Requests of the program to its CNC, which a client of the host's socket answers.
+// Requests of the program to its CNC, answered by a client of the host's socket.
 #pragma once
 #include <chrono>
 #include <functional>
@@ -22,15 +22,15 @@ public:
 
   explicit Services(host::PlcHost& plc) : plc_(plc) {}
 
-  // Commands of docs/control-protocol.md; they throw Refused.
+  // Requests of docs/control-protocol.md; they throw Refused.
   nlohmann::json serve(const Peer& peer, const nlohmann::json& request);
   nlohmann::json live(const Peer& peer, const nlohmann::json& request);
   nlohmann::json served(const Peer& peer, const nlohmann::json& request);
 
   void gone(const Peer& peer);
-  // Passes new requests on, and refuses those that have waited too long. A provider that has promised signs of life and
-  // sends none counts as disconnected: all motion has stopped, and the program must learn of it before anything moves
-  // again.
+  // Passes new requests to the provider, and refuses those that have waited too long. A provider that has promised
+  // signs of life and sends none counts as disconnected: all motion has stopped, and the program must learn of it
+  // before anything moves again.
   void work(Sink& sink);
   // Takes the reports for the operator since the last call.
   std::vector<std::string> takeReports() { return std::exchange(reports_, {}); }
@@ -52,9 +52,9 @@ private:
   host::PlcHost& plc_;
   void lose(const std::string& why);
   uint32_t provider_ = 0; // number of the serving peer; 0: none
-  int64_t aliveNs_ = 0;   // how long it may be silent; 0: without limit
+  int64_t aliveNs_ = 0;   // longest silence; 0: without limit
   int64_t heardNs_ = 0;
-  bool isLost_ = false; // the provider has gone: what was in progress is not done
+  bool isLost_ = false; // the provider has disconnected: its requests in progress are not done
   std::vector<std::string> reports_;
   std::map<uint32_t, Waiting> waiting_; // by ticket
 };

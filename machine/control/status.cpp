@@ -63,7 +63,7 @@ json Status::status(const Peer&, const json&) {
   out["unsaved"] = (flags & RUNG_STATE_UNSAVED) != 0;
   out["faulted"] = (flags & RUNG_STATE_FAULTED) != 0;
   if (!plc_.host().restartProblem().empty()) out["restart_problem"] = plc_.host().restartProblem();
-  const bool faulted = (flags & RUNG_STATE_FAULTED) != 0; // a fault of after the command is of another moment
+  const bool faulted = (flags & RUNG_STATE_FAULTED) != 0; // a fault after the command is not reported
   if (const std::optional<rung_fault_info> fault = faulted ? plc_.host().fault() : std::nullopt) {
     out["fault"] = fault->text;
     out["file"] = fault->file;
@@ -76,7 +76,7 @@ json Status::status(const Peer&, const json&) {
 
 namespace {
 
-// What the program has a pin for, as the mapping file says it: "DOOR", "bit 3 of X0", "M3", "done of M3".
+// The uses of a pin as the mapping file names them: "DOOR", "bit 3 of X0", "M3", "done of M3".
 std::vector<std::string> usesOf(const host::File& map, uint32_t pin) {
   std::vector<std::string> uses;
   for (const host::Link& link : map.links) {
@@ -112,7 +112,7 @@ json jsonOf(host::PinType type, const host::Value& value) {
 
 } // namespace
 
-// Empty: no thread scans the program.
+// Empty if no thread scans the program.
 std::vector<host::Value> Status::pinValues() {
   struct {
     const host::PlcHost& plc;
@@ -154,8 +154,8 @@ json Status::map(const Peer&, const json&) {
 
 namespace {
 
-constexpr uint32_t kMostRungs = 10'000; // of an answer
-constexpr uint32_t kAtOnce = 64;        // a step of the scan thread reads no more
+constexpr uint32_t kMostRungs = 10'000; // largest number in an answer
+constexpr uint32_t kAtOnce = 64;        // largest number read in one step of the scan thread
 
 struct Wanted {
   uint32_t top = kMostRungs;
@@ -183,7 +183,7 @@ json rowOf(const rung_profile& rung) {
 
 } // namespace
 
-// All rungs of the program's tables. Their counters are not those of one scan: the program continues meanwhile.
+// The counters of all rungs in the program's tables. They are from different scans, as the program continues meanwhile.
 std::vector<rung_profile> Status::counters() {
   std::vector<rung_profile> all;
   int32_t status = RUNG_OK;
@@ -204,7 +204,7 @@ json Status::profile(const Peer&, const json& request) {
   const Wanted wanted = wantedOf(request);
   std::vector<rung_profile> rungs = counters();
   double time = 0;
-  double outside = 0; // what the compiler made: in no drawing
+  double outside = 0; // time of code without a rung in a drawing
   for (const rung_profile& rung : rungs) (rung.rung == 0 ? outside : time) += rung.total_ns;
   std::erase_if(rungs, [](const rung_profile& rung) { return rung.rung == 0; });
   const size_t count = rungs.size();

@@ -1,4 +1,4 @@
-// What is to be known of a host: the state of its program, its pins, and what the rungs have cost. Nothing is changed.
+// Read-only reports about a host: the state of its program, its pins, and the profile of its rungs.
 #pragma once
 #include <functional>
 #include <string>
@@ -11,21 +11,21 @@
 
 namespace rung::control {
 
-// For the thread that serves the plc. What cannot be done throws Refused.
+// Service thread. Throws Refused for requests that cannot be executed.
 class Status {
 public:
-  // `host`: its name. `dialect`: of all programs that it can have.
+  // `host`: name of the host. `dialect`: of all programs that it can run.
   Status(PlcAccess& plc, std::string host, std::string dialect)
       : plc_(plc), host_(std::move(host)), dialect_(std::move(dialect)) {}
 
-  // What the host adds to its status. Before the first request.
+  // Sets a function that adds members to the host's status. To be called before the first request.
   void addToStatus(std::function<void(nlohmann::json&)> add) { addToStatus_ = std::move(add); }
 
-  // Answers of docs/control-protocol.md.
+  // Requests of docs/control-protocol.md.
   nlohmann::json greeting() const;
   nlohmann::json status(const Peer& peer, const nlohmann::json& request);
   nlohmann::json map(const Peer& peer, const nlohmann::json& request);
-  // Of a program that was built with --profile.
+  // Counters of a program that was built with --profile.
   nlohmann::json profile(const Peer& peer, const nlohmann::json& request);
 
 private:

@@ -1,12 +1,12 @@
-// How much of each kind of work a turn of the thread that serves does for a program, beside one request of each client.
-// What is left is done in the next turns: who waits for a restart or an answer does not wait for what never ends.
+// Limits of each kind of work that one turn of the service thread does for a program, besides one request of each
+// client. The remainder is done in the next turns, so that endless work delays neither a restart nor an answer.
 #pragma once
 
 namespace rung::control::turn {
 
-constexpr int kMostMessages = 64;    // that the program has shown
+constexpr int kMostMessages = 64;    // messages of the program
 constexpr int kMostServices = 64;    // requests of the program to a CNC
-constexpr int kMostScans = 500;      // of each client that watches all of them
-constexpr int kMostShadowRuns = 200; // that are compared
+constexpr int kMostScans = 500;      // scans sent to each client that watches all scans
+constexpr int kMostShadowRuns = 200; // runs of a shadow that are compared
 
 } // namespace rung::control::turn

@@ -84,7 +84,7 @@ json toJson(uint32_t type, rung_value value) {
 
 namespace {
 
-// Of a text in the place of a number: those that JSON cannot hold, as they are written.
+// The number in a text, for numbers that JSON cannot represent.
 text::WrittenNumber writtenIn(const json& value) {
   return value.is_string() ? text::writtenNumber(value.get<std::string>()) : text::WrittenNumber{};
 }
@@ -140,7 +140,7 @@ std::string toBase64(std::string_view bytes) {
   std::string text(sodium_base64_ENCODED_LEN(bytes.size(), sodium_base64_VARIANT_ORIGINAL), '\0');
   sodium_bin2base64(text.data(), text.size(), reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size(),
                     sodium_base64_VARIANT_ORIGINAL);
-  text.pop_back(); // the 0 at its end
+  text.pop_back(); // the terminating 0
   return text;
 }
 

@@ -1,5 +1,5 @@
-// What requests and answers hold, as JSON: texts and names, values of cells, bytes. Of cells a bit is true or false, an
-// integer and a real are numbers; a real that is none is null. A byte has no sign, wider integers have one.
+// JSON values of requests and answers: texts and names, values of cells, bytes. A bit is true or false; integers and
+// reals are numbers; a real that is not finite is null. Bytes are unsigned, wider integers signed.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -14,27 +14,27 @@
 
 namespace rung::control {
 
-// Something that is asked for cannot be done; the text is for the person who asks: found, expected, what to do.
+// A request that cannot be executed. The text is for the user: what was found, what was expected, how to fix it.
 class Refused : public std::runtime_error {
 public:
   using std::runtime_error::runtime_error;
 };
 
-// Of a request, by their keys; throw Refused where they are not there, or are something else.
+// Members of a request by key; throw Refused if the member is missing or has another type.
 std::string textOf(const nlohmann::json& request, const char* key);
-bool flagOf(const nlohmann::json& request, const char* key); // without it: false
+bool flagOf(const nlohmann::json& request, const char* key); // false if missing
 std::vector<std::string> namesOf(const nlohmann::json& request);
 
 std::string joined(const std::vector<std::string>& texts, const char* between);
 
-// `type`: enum rung_type, not of a text.
+// `type`: enum rung_type, except text.
 nlohmann::json toJson(uint32_t type, rung_value value);
-// Throws Refused where it is none of the type; integers may have the sign of the cell, or none.
+// Throws Refused if the value does not fit the type; integers may be given signed or unsigned.
 rung_value fromJson(uint32_t type, const nlohmann::json& value, const std::string& name);
 std::string typeName(uint32_t type);                 // "bit", "i16", "real"
-std::string textOf(uint32_t type, rung_value value); // for people
+std::string textOf(uint32_t type, rung_value value); // for users
 
 std::string toBase64(std::string_view bytes);
-std::optional<std::string> fromBase64(std::string_view text); // nothing where it is none
+std::optional<std::string> fromBase64(std::string_view text); // nothing if it is not base64
 
 } // namespace rung::control

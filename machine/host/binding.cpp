@@ -21,41 +21,41 @@ namespace {
 constexpr std::string_view kPositions = "NC.MPOS.";
 constexpr uint64_t kRealBits = 64;
 constexpr uint32_t kIntegerBits = 32;     // of pins
-constexpr uint32_t kMostSuggestions = 10; // each takes a time in proportion to the symbols of the program
+constexpr uint32_t kMostSuggestions = 10; // the time of each is proportional to the number of symbols
 
-enum class Use : uint8_t { Input, Output, Constant }; // HAL writes the first and the last
+enum class Use : uint8_t { Input, Output, Constant }; // Input and Constant are written by HAL
 
-// What refers to a name of the program.
+// An entry that refers to a name of the program.
 struct Entry {
   std::string where; // its key, for messages
   std::string name;
   text::Position at;
   Use use = Use::Input;
   PinType type = PinType::Bit;
-  double value = 0;     // of a constant, or of a parameter at the start
-  uint32_t bits = 0;    // that have a pin each
-  bool anyType = false; // the type is not known
+  double value = 0;     // of a constant, or the initial value of a parameter
+  uint32_t bits = 0;    // number of bits with a pin each
+  bool anyType = false; // the type of the entry is not known
 };
 
-// Why an entry cannot refer to a place.
+// The reason why an entry cannot refer to a place.
 enum class Misfit : uint8_t {
   None,
   Constant,
   Text,
-  Output, // and HAL would write it
-  Bit,    // and the type has more
-  Cell,   // and the type is a bit
-  Real,   // and the type is an integer
-  Narrow, // and more bits are wanted
+  Output, // an output, which HAL would write
+  Bit,    // a bit, for a larger type
+  Cell,   // a cell, for a bit
+  Real,   // a real, for an integer
+  Narrow, // fewer bits than the entry needs
 };
 
-// The place of a name, and its type.
+// The place of a name in the program, and its type.
 struct Place {
   uint32_t type = RUNG_TYPE_BIT; // enum rung_type
-  uint32_t space = RUNG_NONE;    // RUNG_NONE: a constant, whose value this is
+  uint32_t space = RUNG_NONE;    // RUNG_NONE: a constant
   int64_t constant = 0;
   uint64_t first = 0; // bit of the space
-  uint32_t count = 1; // of elements
+  uint32_t count = 1; // number of elements
 
   bool isReal() const { return type == RUNG_TYPE_F64; }
   uint32_t width() const { return elementBits(type); }
@@ -65,7 +65,7 @@ bool isPosition(std::string_view name) { return name.starts_with(kPositions); }
 
 std::string inQuotes(std::string_view text) { return "\"" + std::string(text) + "\""; }
 
-// A constant as the file has it.
+// A constant as written in the file.
 std::string textOf(const Entry& entry) {
   if (entry.type == PinType::Bit) return entry.value != 0 ? "true" : "false";
   if (entry.type != PinType::Float) return std::to_string(static_cast<int64_t>(entry.value));
@@ -159,10 +159,10 @@ private:
                       ": a number that does not fit loses its upper bits"));
   }
 
-  // Each bit is one pin's: of two the one whose turn comes later would have its value there.
+  // Reports bits that two pins write: the later one would overwrite the other.
   void checkShared(std::vector<Written>& written, const std::string& kind) {
     std::ranges::stable_sort(written, {}, [](const Written& w) { return std::pair(w.space, w.first); });
-    const Written* reaches = nullptr; // farthest, of those before
+    const Written* reaches = nullptr; // the entry that ends last so far
     for (const Written& next : written) {
       if (reaches != nullptr && reaches->space == next.space && next.first < reaches->end) {
         const bool isLater = std::pair(next.at.line, next.at.column) >= std::pair(reaches->at.line, reaches->at.column);
@@ -176,7 +176,7 @@ private:
     }
   }
 
-  // A constant counts more than a pin, which then does nothing there.
+  // Reports pins whose bits a constant overwrites, so that they have no effect.
   void checkConstants() {
     for (const Written& constant : constants_) {
       const auto meets = [&](const Written& pin) {
@@ -205,7 +205,8 @@ private:
            {"true", "false, because the dialect " + dialect() + " has no such handshake", "remove the line"});
   }
 
-  // Those that a function can have by choice, ascending. To ask changes them, which is the end of a map with a mistake.
+  // The groups that can be chosen for a function, ascending. The query changes the assignment, which does not matter,
+  // because a map with an error is not used.
   std::vector<uint32_t> groupsOf(uint32_t code) const {
     constexpr uint32_t kMostGroups = 32;
     std::vector<uint32_t> groups;
@@ -238,7 +239,7 @@ private:
   bool supports(uint32_t channel, uint32_t kind, uint32_t code = 0) const {
     return rung_instance_carries_function(instance_, channel, static_cast<int32_t>(kind), code) == RUNG_OK;
   }
-  // One kind at least.
+  // Whether the channel supports at least one kind.
   bool hasChannel(uint32_t channel) const {
     for (uint32_t kind = 0; kind < std::size(kFunctionKinds); ++kind)
       if (supports(channel, kind)) return true;
@@ -276,7 +277,7 @@ private:
             "write such a code, or the name of a pin that has it"});
   }
 
-  // The greatest code that the control hands over: all from 0 to there.
+  // The largest code that the control supports; it supports all from 0 on.
   uint32_t mostOf(const Send& send) const {
     uint32_t most = 0;
     for (uint32_t step = uint32_t{1} << 31; step != 0; step /= 2)
@@ -308,7 +309,7 @@ private:
         {link.pin, entry.type, pin.direction, link.name, link.scale, inWords(entry), link.bits, link.value});
   }
 
-  // Of pins for bits what they have in common.
+  // The common part of the names of pins for bits.
   std::string nameInFile(const Link& link) const {
     const std::string& name = map_.pins[link.pin].name;
     return link.bits.empty() ? name : name.substr(0, name.rfind('-'));
@@ -334,7 +335,7 @@ private:
     if (place && place->space == RUNG_NONE) fail(cell.at, entry.where, mistakeOf(Misfit::Constant, *place, entry));
   }
 
-  // A constant says what is meant, unlike a pin, whose value is rounded.
+  // A constant must be exact, whereas the values of pins are rounded.
   bool isWhole(const Entry& constant, const Place& place) {
     const bool isReal = place.isReal() || place.type == RUNG_TYPE_BIT || inWords(constant);
     if (isReal || constant.value == std::floor(constant.value)) return true;
@@ -346,7 +347,7 @@ private:
     return false;
   }
 
-  // Integers with a sign or without; what is converted from a real number has one.
+  // Integers may be signed or unsigned; converted reals are signed.
   bool fits(const Entry& constant, const Place& place) {
     if (place.isReal() || place.type == RUNG_TYPE_BIT || inWords(constant)) return true;
     const bool isReal = constant.type == PinType::Float;
@@ -363,7 +364,7 @@ private:
     return false;
   }
 
-  // The place of the entry. An integer is also a value of a real number, and becomes one of type float.
+  // The place of the entry. An integer entry for a real place becomes one of type float.
   std::optional<Place> find(Entry& entry) {
     const std::optional<Place> place = lookUp(entry);
     if (!place) return std::nullopt;
@@ -373,7 +374,7 @@ private:
     return place;
   }
 
-  // A real number where the program has room for one.
+  // Whether the name has words in which the program stores a real number.
   bool inWords(const Entry& entry) const {
     if (entry.type != PinType::Float || isPosition(entry.name)) return false;
     Place place;
@@ -412,8 +413,8 @@ private:
                  meant.empty() ? "write the name as the program has it" : "did you mean " + meant + "?"});
   }
 
-  // As the NC and the machine see it. Nothing: there is no such name, or `status` is RUNG_OVERWRITTEN for what HAL
-  // would write.
+  // The place as the NC and the machine see it. Nothing: there is no such name, or `status` is RUNG_OVERWRITTEN because
+  // HAL would write it.
   std::optional<Place> placeOf(const std::string& name, Use use, int32_t& status) const {
     Place place;
     status = describe(name, RUNG_WRITE, place);
@@ -432,7 +433,7 @@ private:
     return status;
   }
 
-  // The positions of the program's axes, which it has where it reads them.
+  // Checks the position of an axis; the program has as many axes as it has positions to read.
   bool checkPosition(const Entry& entry) {
     const auto mistake = [&](const Mistake& what) { return fail(entry.at, entry.where, what), false; };
     const std::string first = std::string(kPositions) + "1";
@@ -450,7 +451,7 @@ private:
     return true;
   }
 
-  // The name with the symbol that it may have meant; "" when none is close.
+  // The name with the symbol that was probably meant; "" if none is close.
   std::string meantBy(const Entry& entry) {
     if (suggestions_++ >= kMostSuggestions) return {};
     const bool isWhole = text::headOf(entry.name).size() == entry.name.size();
@@ -461,7 +462,7 @@ private:
     const std::span symbols(program_.symbols, program_.symbol_count);
     std::string meant = meantName(entry.name, symbols | std::views::filter(fits), &rung_symbol::name);
     if (meant.empty()) return {};
-    // A bit, an index or a length may take the place out of the cell.
+    // A bit, an index or a length may exceed the cell.
     int32_t status = RUNG_OK;
     const std::optional<Place> place = placeOf(meant, entry.use, status);
     return place && misfitOf(*place, entry) == Misfit::None ? meant : std::string();
@@ -474,7 +475,7 @@ private:
 
   const File& map_;
   rung_instance* instance_;
-  const rung_replacement* replacement_; // null: the program that runs
+  const rung_replacement* replacement_; // null: the running program
   const rung_program& program_;
   std::vector<std::string>& errors_;
   uint32_t suggestions_ = 0;

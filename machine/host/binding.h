@@ -1,4 +1,4 @@
-// The entries of a mapping file, with their names looked up in a program: what is to be bound to the program's cells.
+// The entries of a mapping file with their names looked up in a program, ready to be bound to the program's cells.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -11,14 +11,14 @@
 namespace rung::host {
 
 struct PinLink {
-  uint32_t pin = 0; // in File::pins; the first of `bits`
+  uint32_t pin = 0; // index into File::pins; the first of `bits`
   PinType type = PinType::Bit;
   Direction direction = Direction::In;
   std::string name;
-  double scale = 1;            // float: the program's units in one unit of HAL
+  double scale = 1;            // float: program units per HAL unit
   bool words = false;          // the name is a real stored in words
-  std::vector<uint32_t> bits;  // pins of a cell's bits, from the lowest one on: the cell is of type U32 then
-  std::optional<double> value; // of a parameter, at the start
+  std::vector<uint32_t> bits;  // pins of the cell's bits, lowest first; the cell is of type U32 then
+  std::optional<double> value; // initial value of a parameter
 };
 
 struct ConstLink {
@@ -31,7 +31,7 @@ struct ConstLink {
 struct Binding {
   std::vector<PinLink> links;
   std::vector<ConstLink> constants;
-  std::vector<std::string> warnings; // in the form of `errors`: entries that work, but hardly as intended
+  std::vector<std::string> warnings; // formatted as `errors`: entries that work, but probably not as intended
 };
 
 // Looks up all names. Every name that does not exist or does not suit its entry is one text in `errors`,
@@ -40,8 +40,8 @@ struct Binding {
 Binding bindMap(const File& map, rung_instance* instance, const rung_program& program,
                 std::vector<std::string>& errors);
 
-// The same for the new program of a replacement, whose tables are `program`, except for the entries that concern the
-// control, which does not change.
+// The same for the new program of a replacement, whose tables are `program`. Entries that concern the control are
+// skipped, because the control does not change.
 Binding bindMap(const File& map, rung_instance* instance, const rung_replacement* replacement,
                 const rung_program& program, std::vector<std::string>& errors);
 

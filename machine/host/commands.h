@@ -1,5 +1,5 @@
-// Commands from another thread to the scan thread, which executes them between two slices: a slot for one command at a
-// time. Neither thread waits for the other in it.
+// Commands from another thread to the scan thread, which executes them between two slices. The slot holds one command
+// at a time; neither thread blocks the other.
 #pragma once
 #include <chrono>
 #include <cstdint>
@@ -17,17 +17,16 @@ namespace rung::host {
 struct Command {
   enum class Kind : uint8_t {
     State,   // returns the state of the instance and of functions
-    Write,   // writes `value` into `cell`; returns the former value and the instance's state
-    Forced,  // returns force number `index` of those in effect
-    Force,   // puts `forces` in effect; null: none
-    Replace, // puts the program of `replacement` in place; returns the instance's state
-    Shadow,  // begins `shadow`; null: ends the present one
+    Write,   // writes `value` to `cell`; returns the previous value and the instance's state
+    Forced,  // returns force number `index` of the active forces
+    Force,   // activates `forces`; null: releases all forces
+    Replace, // starts the program of `replacement`; returns the instance's state
+    Shadow,  // begins `shadow`; null: ends the current one
     Stop,
     Start,
     Restart, // after a fault
     Act,     // calls `act` with `actor`
-    Profile, // the counters of the rungs from `index` on, `count` of them at most, into `profiles`; `count`: of how
-             // many
+    Profile, // copies up to `count` counters, of rungs from `index` on, to `profiles`; `count`: number of rungs
     ClearProfile,
   };
   Kind kind = Kind::State;
@@ -50,7 +49,7 @@ struct Command {
   rung_force_info force{};
 };
 
-// What became of a command.
+// The result of a command.
 struct CommandResult {
   int32_t status = RUNG_OK; // enum rung_status; RUNG_FAILED also if no thread scans the program
   std::string problem;      // a sentence, if the command was not executed
@@ -59,16 +58,16 @@ struct CommandResult {
 
 class CommandSlot {
 public:
-  // The status of a command, and the sentence that goes with it, where it is not done.
+  // The status of a command, and a sentence if it was not executed.
   struct Outcome {
     int32_t status = RUNG_OK;
-    const char* problem = ""; // valid until the command is answered
+    const char* problem = ""; // valid until the result is copied
   };
 
   // Any thread except the scan thread; callers may wait here for each other. Posts a command and waits for its results,
-  // which are stored in `command`. What the scan thread cannot do at the moment it tries again, until the time is over:
-  // then the command is withdrawn, and has had no effect. Between two checks `meanwhile` is called, for work that must
-  // not wait.
+  // which are stored in `command`. The scan thread retries a command that it cannot execute yet (RUNG_LATER) until the
+  // time is over; the command is then withdrawn and has had no effect. `meanwhile` is called between two checks, for
+  // work that must not wait.
   template <class Meanwhile>
   CommandResult give(Command& command, std::chrono::nanoseconds time, runtime::Clock& clock, Meanwhile meanwhile) {
     constexpr int64_t kLookNs = 200'000;

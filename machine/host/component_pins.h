@@ -1,5 +1,5 @@
-// The pins that LinuxCNC's component (machine/rung-hal) creates for every program besides those of the map, and the
-// rules of HAL for names of pins.
+// The pins that LinuxCNC's component (machine/rung-hal) creates for every program besides those of the map, and HAL's
+// rules for pin names.
 #pragma once
 #include <string>
 #include <string_view>
@@ -18,16 +18,16 @@ enum class OwnPin : uint8_t {
   FunctionsTimeout,
   FunctionsLost,
   Reset,    // restarts the program after a fault
-  PowerOff, // begins the regular end of the program, while its pins are still connected
+  PowerOff, // begins the regular power-off of the program, while its pins are still connected
   PoweredOff,
-  Serving, // a client answers the program's requests, and is alive
+  Serving, // a client answers the program's requests and sends signs of life
   MaxTime, // maximum time of the program in one call, in microseconds; 0: only its budgets apply
 };
 
 struct OwnPinRow {
   std::string_view name;
   PinType type;
-  Direction direction; // as of the map: In is written by HAL
+  Direction direction; // as in the map: In is written by HAL
 };
 
 // Indexed by OwnPin.
@@ -42,7 +42,7 @@ inline constexpr OwnPinRow kOwnPins[] = {
 
 bool isOwnPin(std::string_view name);
 
-// HAL's names have at most 47 characters; the program's name and a point, "rung.", precede that of the pin.
+// HAL's names have at most 47 characters; the name of a pin follows that of the program and a dot, "rung.".
 inline constexpr size_t kLongestPinName = 47 - std::string_view("rung.").size();
 
 // Reports names of pins that the component or HAL does not accept.

@@ -13,11 +13,11 @@
 namespace rung::host {
 namespace {
 
-constexpr uint32_t kMostNumber = 65535; // of a message: a WORD
-constexpr int kMostValues = 3;          // of a message's text
+constexpr uint32_t kMostNumber = 65535; // number of a message: a WORD
+constexpr int kMostValues = 3;          // values in the text of a message
 
 enum class Element : uint8_t {
-  Foreign, // of another part of the control
+  Foreign, // belongs to another part of the control
   Messages,
   Message,
   MessageText,
@@ -61,7 +61,7 @@ private:
   Element inChannel(Element parent, std::string_view name) const;
   Element childOf(std::string_view name, std::string_view expected, Element child);
   void checkText();
-  // False after a complaint: there is one already.
+  // Returns whether the identifier is new; reports a duplicate. An empty one has already been reported.
   bool isNew(std::string_view what, const std::string& id, const FilePlace& at);
 
   void beginMessage(const char** attributes);
@@ -74,10 +74,10 @@ private:
   void endParameter();
 
   ControlFileKind kind_;
-  std::vector<Element> elements_; // the open ones
+  std::vector<Element> elements_; // open elements
   bool hasText_ = false;
   ControlFiles found_;
-  std::map<std::string, FilePlace, std::less<>> known_; // by kind and identifier
+  std::map<std::string, FilePlace, std::less<>> known_; // positions by kind and identifier
 };
 
 Reader::Reader(ControlFileKind kind, std::string_view name, const ControlFiles& earlier)
@@ -149,13 +149,13 @@ Element Reader::elementOf(std::string_view name) {
   case Element::Terminal:
   case Element::Connection: return childOf(name, {}, Element::Foreign);
   case Element::Plc: return inChannel(parent, name);
-  case Element::Device: // what is in it belongs to another part of the control
+  case Element::Device: // its content belongs to another part of the control
   case Element::Foreign: break;
   }
   return kind_ == ControlFileKind::Channel ? inChannel(parent, name) : Element::Foreign;
 }
 
-// Text around elements is not a text of the ones read here.
+// Reports text in elements that have no text; foreign elements may contain any.
 void Reader::checkText() {
   constexpr Element kWithTexts[] = {Element::Foreign, Element::Plc, Element::Device};
   const bool foreign = elements_.empty() || std::ranges::find(kWithTexts, elements_.back()) != std::end(kWithTexts);

@@ -61,17 +61,18 @@ struct TerminalDefinition {
   double scale = 1;
   double offset = 0;
   std::optional<double> least, most; // MinVal, MaxVal
-  double otherwise = 0;              // Default; 0 or 1 of a bit
+  double otherwise = 0;              // Default; 0 or 1 for a bit
   bool connected = false;
   FilePlace place;
 };
 
-// <NCAxis No="0" RefMethod="9">, <CANChannel No="1" Active="1">, <ComChannel No="0">, <Servo No="0">: what the machine
-// has; axes, servos and CAN channels are numbered from 0, too (l.3242-3285, l.9211-9271, l.11475-11610, l.21003-21039).
+// <NCAxis No="0" RefMethod="9">, <CANChannel No="1" Active="1">, <ComChannel No="0">, <Servo No="0">: the devices of
+// the machine; axes, servos and CAN channels are also numbered from 0 (l.3242-3285, l.9211-9271, l.11475-11610,
+// l.21003-21039).
 enum class DeviceKind : uint8_t { Axis, CanChannel, ComChannel, Servo };
 struct DeviceDefinition {
   struct Attribute {
-    std::string name, value; // any names: the code for the device knows its attributes
+    std::string name, value; // any name; the code for the device checks it
   };
   DeviceKind kind = DeviceKind::Axis;
   uint32_t number = 0;               // 0 to 15
@@ -90,10 +91,10 @@ struct ControlFiles {
 
 enum class ControlFileKind : uint8_t { Messages, Constants, Channel };
 
-// Adds the contents of the file to `files`. "", or the errors, one line "FILE:LINE:COLUMN: ..." each; then `files` is
-// unchanged.
+// Adds the contents of the file to `files`. Returns "", or the errors, one line "FILE:LINE:COLUMN: ..." each; `files`
+// is then unchanged.
 std::string readControlFile(ControlFileKind kind, const std::string& path, ControlFiles& files);
-// The same for a text; `name` is that of the file in messages.
+// The same for a text; `name` is the name of the file in messages.
 std::string parseControlFile(ControlFileKind kind, std::string_view name, std::string_view text, ControlFiles& files);
 
 } // namespace rung::host

@@ -1,4 +1,4 @@
-// The queue of functions on their way to the program.
+// See function_queue.h.
 #include "machine/host/function_queue.h"
 
 #include <algorithm>
@@ -41,7 +41,7 @@ void FunctionQueue::sample(Pins& pins, int64_t ns) noexcept {
     calls_[i].ageNs += ns;
     late_ = late_ || isLate(calls_[i]);
   }
-  // First, so that what the same event sends, a spindle's stop, goes to the program at once.
+  // Aborts first, so that a function sent by the same event, such as a spindle stop, reaches the program at once.
   for (uint32_t i = 0; i < aborts_.size(); ++i) {
     const bool now = triggered(aborts_[i], pins);
     if (now && !wasAborted_[i]) abort();
@@ -72,7 +72,7 @@ bool FunctionQueue::queue(Call call) noexcept {
   return hasRoom || !isCarried;
 }
 
-// The function itself is carried out all the same.
+// The function itself is still completed.
 void FunctionQueue::withdraw(uint32_t send, Pins& pins) noexcept {
   for (uint32_t i = 0; i < count_; ++i)
     if (calls_[i].send == send) calls_[i].wanted = false;
@@ -96,7 +96,7 @@ void FunctionQueue::advance(Pins& pins) noexcept {
   for (uint32_t i = 0; i < count_; ++i) start(i);
 }
 
-// Unless an older one of its kind and channel waits.
+// Begins a function, unless an older one of its kind and channel waits.
 void FunctionQueue::start(uint32_t index) noexcept {
   Call& call = calls_[index];
   const Send& send = sends_[call.send];
@@ -109,7 +109,7 @@ void FunctionQueue::start(uint32_t index) noexcept {
   if (rung_instance_begin_function(instance_, send.channel, send.kind, call.code, &line) == RUNG_OK) call.line = line;
 }
 
-// The acknowledge is for a cause that is still there, and not for a later one on the same pin.
+// The acknowledge is only set if the cause is still present, not for a later cause on the same pin.
 bool FunctionQueue::finish(const Call& call, Pins& pins) const noexcept {
   const Send& send = sends_[call.send];
   if (!call.line || rung_instance_function_done(instance_, send.channel, *call.line) != RUNG_OK) return false;

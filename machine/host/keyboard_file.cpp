@@ -39,7 +39,7 @@ private:
 
   std::vector<Element> elements_;
   std::vector<KeyDefinition> found_;
-  KeyDefinition key_; // of the element KeyConfig that is open
+  KeyDefinition key_; // the open element KeyConfig
   bool hasFunctions_ = false;
 };
 

@@ -21,7 +21,7 @@ namespace rung::host {
 namespace {
 
 constexpr uint32_t kByteBits = 8;
-// With a number and a bit's number, too.
+// Leaves room for a number and the number of a bit.
 constexpr size_t kLongestPin = kLongestPinName - std::string_view("-99-7").size();
 
 struct Row {
@@ -29,7 +29,7 @@ struct Row {
   PinType type = PinType::Bit;
   std::string name;
   std::string comment;
-  uint32_t bits = 0; // that have a pin each
+  uint32_t bits = 0; // number of bits with a pin each
 };
 
 PinType pinTypeOf(uint32_t type) {
@@ -55,7 +55,7 @@ std::string pinNameOf(std::string_view name) {
   return pin.empty() ? "pin" : pin;
 }
 
-// A text of a TOML file.
+// Quotes a text for a TOML file.
 std::string inToml(std::string_view text) {
   std::string made = "\"";
   for (const char c : text) made += c == '"' || c == '\\' ? std::string{'\\', c} : std::string{c};
@@ -68,20 +68,20 @@ public:
       : instance_(instance), program_(program), sides_(instance, program) {}
 
   void add(const UsedName& used) {
-    const std::optional<rung_cell_info> written = cellInfo(instance_, used.name, RUNG_WRITE); // where a pin writes
+    const std::optional<rung_cell_info> written = cellInfo(instance_, used.name, RUNG_WRITE); // written by a pin
     const std::optional<rung_cell_info> found = cellInfo(instance_, used.name, RUNG_READ);
     if (!found || !names_.insert(used.name).second) return;
     const rung_cell_info& info = *found;
     if (info.space == RUNG_NONE || info.type == RUNG_TYPE_TEXT || info.count != 1) return;
     const uint32_t sides = sides_.of(info);
-    // Memory that has no name of the user's, such as positions, is the NC's.
+    // Memory that the user cannot name, such as positions, belongs to the NC.
     const bool own = sides == 0 && (program_.spaces[info.space].flags & RUNG_SPACE_HIDDEN) == 0;
     if (own && used.written) return;
     const bool input = sides == RUNG_SPACE_INPUT || (sides != RUNG_SPACE_OUTPUT && !used.written);
     const bool output = sides == RUNG_SPACE_OUTPUT || (!input && !used.read);
     if (input && !written) return;
     Row row{.type = pinTypeOf(info.type), .name = used.name, .comment = commentOf(used.name)};
-    if (input && info.type == RUNG_TYPE_I8) row.type = PinType::Bit, row.bits = kByteBits; // mostly eight bits
+    if (input && info.type == RUNG_TYPE_I8) row.type = PinType::Bit, row.bits = kByteBits; // usually eight single bits
     row.pin = uniquePin(row);
     if (own)
       unwritten_.push_back(row);
@@ -114,14 +114,14 @@ public:
   }
 
 private:
-  // Each bit is one pin's.
+  // Each bit may be fed by one pin only.
   void addInput(const Row& row, uint32_t type, const Bits& bits) {
     const bool isTaken = std::ranges::any_of(taken_, [&](const Bits& other) { return other.meets(bits); });
     (isTaken ? parts_ : type == RUNG_TYPE_I16 ? narrow_ : inputs_).push_back(row);
     if (!isTaken) taken_.push_back(bits);
   }
 
-  // The key of a row and its pins: of the byte X7 "x7", and "x7-0" to "x7-7".
+  // The key of a row and its pins: for the byte X7, "x7", and "x7-0" to "x7-7".
   static std::vector<std::string> pinsOf(const std::string& pin, uint32_t bits) {
     std::vector<std::string> pins{pin};
     for (uint32_t bit = 0; bit < bits; ++bit) pins.push_back(pin + "-" + std::to_string(bit));
@@ -175,7 +175,7 @@ private:
   const rung_program& program_;
   Sides sides_;
   std::set<std::string> names_, pins_;
-  std::vector<Bits> taken_; // by inputs
+  std::vector<Bits> taken_; // bits of inputs
   std::vector<Row> inputs_, narrow_, parts_, unwritten_, outputs_, others_;
 };
 

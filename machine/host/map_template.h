@@ -1,4 +1,4 @@
-// Writes a first mapping file for a program: its inputs, outputs and functions, as a person would begin.
+// Writes a first mapping file for a program, with its inputs, outputs and functions, for a user to edit.
 #pragma once
 #include <cstdint>
 #include <span>
@@ -9,20 +9,20 @@
 
 namespace rung::host {
 
-// A place, by its name, that rungs of the program use.
+// The name of a cell that rungs of the program use.
 struct UsedName {
   std::string name;
   bool read = false;
-  bool written = false; // the place, or part of it, is written
+  bool written = false; // at least partly
 };
 
-// The text of a mapping file without errors and warnings. Its inputs are what the machine or the NC writes, its outputs
-// what they read. Of memory that both sides share it has as inputs what no rung writes, as outputs what no rung reads,
-// and the rest in comments. Of the program's own memory it has only what no rung writes, in comments. `program`: the
-// tables of the instance's image.
+// Returns the text of a mapping file without errors and warnings. Its inputs are the cells that the machine or the NC
+// writes, its outputs those that they read. Of memory shared by both sides, cells that no rung writes become inputs,
+// cells that no rung reads become outputs, and the others are listed in comments. Of the program's own memory, only
+// cells that no rung writes are listed, in comments. `program`: the tables of the instance's image.
 std::string templateMap(rung_instance* instance, const rung_program& program, std::span<const UsedName> used);
 
-// Which side owns the cells of a program: written by the machine and the NC, read by them, or the program's own.
+// Ownership of a program's cells: written by the machine and the NC, read by them, or the program's own.
 
 // Bits of a space.
 struct Bits {
@@ -33,7 +33,7 @@ struct Bits {
 };
 Bits bitsOf(const rung_cell_info& info);
 
-// The sides of a program's cells; the direction of a signal is more exact than the memory in which it lies.
+// The owners of a program's cells; the direction of a signal is more precise than that of the memory in which it lies.
 class Sides {
 public:
   Sides(rung_instance* instance, const rung_program& program);

@@ -14,21 +14,21 @@ namespace {
 
 constexpr double kShortestTime = 0.001; // seconds
 constexpr double kLongestTime = 3600;
-constexpr int64_t kMostPlaces = 65536; // of an area of Modbus
-constexpr int64_t kMostMemory = 65536; // bytes, each way
+constexpr int64_t kMostPlaces = 65536; // in one Modbus area
+constexpr int64_t kMostMemory = 65536; // bytes in each direction
 constexpr int64_t kLastUnit = 247;
-constexpr int64_t kNoUnit = 255; // the device itself, of Modbus TCP
+constexpr int64_t kNoUnit = 255; // addresses the Modbus TCP device itself
 constexpr int64_t kMostConnections = 64;
 constexpr int64_t kMostRequests = 100'000;
 constexpr size_t kLongestName = 64;
 
 constexpr std::string_view kAreaNames[] = {"coils", "discrete-inputs", "holding-registers", "input-registers",
-                                           "pins"};                                  // by Area
-constexpr std::string_view kFormatNames[] = {"", "s16", "u16", "s32", "u32", "f32"}; // by Format, of registers
+                                           "pins"};                                  // indexed by Area
+constexpr std::string_view kFormatNames[] = {"", "s16", "u16", "s32", "u32", "f32"}; // indexed by Format, for registers
 
 std::string_view areaName(Area area) { return kAreaNames[static_cast<size_t>(area)]; }
 bool isRegister(Area area) { return area == Area::HoldingRegister || area == Area::InputRegister; }
-// What a client of Modbus may write.
+// Whether a Modbus client can write the area.
 bool isWritable(Area area) { return area == Area::Coil || area == Area::HoldingRegister; }
 
 bool isAddress(const std::string& text) {
@@ -47,7 +47,7 @@ std::optional<int64_t> nanosecondsOf(const toml::node& node) {
   return static_cast<int64_t>(*seconds * 1e9);
 }
 
-// What is written where the file says nothing.
+// The default format.
 Format usualFormat(Area area, PinType type) {
   const bool isMemory = area == Area::Memory;
   switch (type) {
@@ -59,7 +59,7 @@ Format usualFormat(Area area, PinType type) {
   return Format::Bit;
 }
 
-// Places of an area that a value takes.
+// Number of addresses that a value occupies.
 uint32_t lengthOf(const ConnectedPin& pin) {
   if (pin.area == Area::Memory) return bytesOf(pin.format);
   return isRegister(pin.area) ? registersOf(pin.format) : 1;
@@ -423,7 +423,7 @@ bool ConnectionReader::checkPlace(const ConnectedPin& pin, const Connection& con
   return true;
 }
 
-// An input has one source.
+// Reserves an input, which may have only one source.
 bool ConnectionReader::reserve(uint32_t pin, text::Position at, const std::string& where) {
   std::optional<text::Position>& source = sources_[pin];
   if (source)

@@ -1,4 +1,4 @@
-// Reader of the tables modbus-client, modbus-server and shared-memory of a mapping file.
+// Reads the tables modbus-client, modbus-server and shared-memory of a mapping file.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -14,13 +14,13 @@ class ConnectionReader {
 public:
   explicit ConnectionReader(Reading& reading) : reading_(reading) {}
 
-  // One table, or a list of them. False: it is neither.
+  // Reads one table, or a list of tables. Returns false if it is neither.
   bool read(const toml::node& node, Connection::Kind kind);
-  // Once all pins are known: finds those of the connections, whose places are in File::connections then.
+  // To be called once all pins are known: looks up the pins of the connections and adds these to File::connections.
   void resolve();
 
 private:
-  // A pin at a place, as the file has it.
+  // A pin and its address at the other side, as written in the file.
   struct PinRow {
     Place pin;
     Area area = Area::Coil;
@@ -74,7 +74,7 @@ private:
   bool takeOrder(const toml::node& node, PinRow& pin);
   bool takeSafe(const toml::node& node, PinRow& pin);
 
-  // With the pins.
+  // These run once all pins are known.
   void resolve(Row& row);
   void resolveStatus(const Place& status, Connection& connection);
   void resolvePin(const PinRow& row, Connection& connection);
@@ -88,7 +88,7 @@ private:
 
   Reading& reading_;
   std::vector<Row> rows_;
-  std::vector<std::optional<text::Position>> sources_; // by pin: what connects an input already
+  std::vector<std::optional<text::Position>> sources_; // by pin: position of the entry that feeds this input
 };
 
 } // namespace rung::host

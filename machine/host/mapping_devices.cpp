@@ -10,14 +10,14 @@ namespace {
 
 using Kind = DeviceSetting::Kind;
 
-// A setting of the configuration is a text, a number, or true and false for 1 and 0; nothing: it is none of these.
+// A configuration setting is a text, a number, or true and false for 1 and 0; nothing if it is none of these.
 std::optional<std::string> settingOf(const toml::node& node) {
   if (const auto truth = node.value_exact<bool>()) return *truth ? "1" : "0";
   if (node.is_string() || node.is_number()) return node.is_string() ? text::stringOf(node) : text::textOf(node);
   return std::nullopt;
 }
 
-// Those of the configuration that name a file: PlcConfig, PlcTable3, PlcTableDef3.
+// Whether a key of the configuration names a file: PlcConfig, PlcTable3, PlcTableDef3.
 bool namesFile(std::string_view key) {
   constexpr std::string_view kTables = "PlcTable";
   return text::equalsIgnoringCase(key, "PlcConfig") ||
@@ -63,7 +63,7 @@ private:
       return reading_.fail(reading_.positionOf(key.source()),
                            "devices.axes: found \"" + std::string(key.str()) +
                                "\", expected the number of an axis, 1 to 16; write for example 4 = \"table\"");
-    if (std::ranges::any_of(map_.devices, isSame)) // 4 and 04 are two keys
+    if (std::ranges::any_of(map_.devices, isSame)) // 4 and 04 are different keys in TOML
       return reading_.fail(reading_.positionOf(key.source()),
                            "devices.axes: found axis " + number +
                                " again, expected each axis once; remove one of the lines");
@@ -96,7 +96,7 @@ private:
                   "\"COM[1].ComSpeed\" = 19200");
     return true;
   }
-  // A key of the configuration; `where` it is in the file.
+  // Adds a key of the configuration; `where` is its place in the file, for messages.
   void takeSetting(const std::string& name, const std::string& where, const toml::node& value,
                    std::string_view example) {
     const auto setting = settingOf(value);
@@ -107,7 +107,7 @@ private:
   void add(Kind kind, std::string_view key, std::string value, const toml::node& node) {
     map_.devices.push_back({kind, std::string(key), std::move(value), reading_.positionOf(node)});
   }
-  // A path in the file that is read, from its folder.
+  // A path relative to the folder of the file that is being read.
   std::string beside(const std::string& path) const { return host::beside(map_.paths[reading_.file()], path); }
 
   Reading& reading_;

@@ -1,4 +1,4 @@
-// Reader of the mapping file: a table is a list of keys, and a key is one row, with what it takes and what takes it.
+// Reader of the mapping file: each table is a list of keys, each key a row with its expected value and its function.
 #include "machine/host/mapping_file.h"
 
 #include <fcntl.h>
@@ -31,10 +31,10 @@ constexpr std::string_view kPermissions =
     "a list of \"set\", \"force\", \"reload\", \"start\", \"stop\", \"reset\", \"profile\" and \"serve\"";
 
 constexpr int64_t kMostBits = 32;
-constexpr size_t kMostFiles = 64; // one that includes others, and so on
+constexpr size_t kMostFiles = 64; // including nested files
 constexpr size_t kMostBytes = size_t{1} << 20;
 
-// NAME.REST = … is the key REST of a table NAME.
+// TOML reads NAME.REST = … as the key REST of a table NAME.
 bool isUnquotedName(const toml::node& node) {
   const toml::table* table = node.as_table();
   return table != nullptr && !table->empty() &&
@@ -64,7 +64,7 @@ std::string_view pinKind(Direction direction) {
   return "?";
 }
 
-// "lamp-07" of 16 pins, "lamp-7" of 8.
+// "lamp-07" for 16 pins, "lamp-7" for 8.
 std::string bitName(const std::string& name, int64_t bit, int64_t bits) {
   return name + (bits > 10 && bit < 10 ? "-0" : "-") + std::to_string(bit);
 }
@@ -89,9 +89,9 @@ class Reader : public Reading {
 public:
   Reader(File& map, const ReadFile& read) : Reading(map), read_(read) {}
 
-  // The text of a file that is not in File::paths yet.
+  // Reads the text of a file that is not in File::paths yet.
   void read(std::string_view text, const std::string& path);
-  // When all files have been read.
+  // To be called when all files have been read.
   void resolve() { connections_.resolve(); }
 
 private:
@@ -110,7 +110,7 @@ private:
     return Reading::readKeys(*this, table, where, keys, row);
   }
 
-  // The file's keys.
+  // Top-level keys.
   bool takeIncludes(const toml::node& node, File&) {
     return takePaths(node, [this](const toml::node& path) { include(path); });
   }
@@ -120,7 +120,7 @@ private:
       map.messageFiles.push_back({beside(map.paths[file()], text::stringOf(path)), positionOf(path)});
     });
   }
-  // A path, or a list of paths.
+  // Reads a path, or a list of paths.
   template <class Take>
   static bool takePaths(const toml::node& node, Take take) {
     const auto isText = [](const toml::node& element) { return !text::stringOf(element).empty(); };
@@ -271,7 +271,7 @@ private:
     return row.donePin.has_value();
   }
 
-  // The pin of that name, made when it is new. Nothing: the name has another use, which is reported.
+  // Returns the pin with this name; creates it if it is new. Nothing: the name has another use, which is reported.
   std::optional<uint32_t> pin(const Place& name, PinType type, Direction direction);
   std::optional<Edge> edge(const EdgeRow& row) {
     const std::optional<uint32_t> index = pin({row.pin, row.pinAt}, PinType::Bit, Direction::In);
@@ -409,7 +409,7 @@ void Reader::readPin(const toml::key& key, const toml::node& node, Direction dir
   }
 }
 
-// What the keys of a pin have to do with each other.
+// Checks the combination of a pin's keys.
 void Reader::checkRow(const PinRow& row, Direction direction, const std::string& where) {
   if (row.scale && row.type != PinType::Float)
     fail(row.scaleAt, where + ".scale: found a scale of type " + std::string(pinTypeName(*row.type)) +
@@ -425,7 +425,7 @@ void Reader::checkRow(const PinRow& row, Direction direction, const std::string&
   checkNumber(row.safe, *row.type, where + ".safe");
 }
 
-// The pin of a row, or one for each of its bits.
+// Creates the pin of a row, or one for each of its bits.
 bool Reader::makePins(const Place& name, const PinRow& row, Direction direction, Link& link) {
   const auto make = [&](const std::string& text) {
     const std::optional<uint32_t> index = pin({text, name.at}, *row.type, direction);
@@ -464,7 +464,7 @@ bool Reader::takeConstants(const toml::node& node, File& map) {
   return true;
 }
 
-// [[name]] tables: calls add(row, position) for each without mistakes.
+// Reads [[name]] tables: calls add(row, position) for each without errors.
 template <class Row, size_t N, class Add>
 bool Reader::takeList(const toml::node& node, std::string_view name, const Key<Row> (&keys)[N], Add add) {
   const toml::array* list = node.as_array();
@@ -488,7 +488,7 @@ bool Reader::takeGroups(const toml::node& node, File& map) {
     const text::Position at = positionOf(key->source());
     const std::optional<uint32_t> code = text::numberIn<uint32_t>(name);
     const auto group = value->value_exact<int64_t>();
-    // 70 and 070 are two keys.
+    // 70 and 070 are different keys in TOML.
     const auto first = std::ranges::find(map.groups, code, &Group::code);
     if (!code)
       fail(at, "m-groups: found \"" + std::string(name) +

@@ -1,5 +1,6 @@
 // The contents of a mapping file: the HAL pins, and the names of the PLC program to which they refer. The file is TOML;
-// docs/mapping-file.md describes its tables. This header has the file alone; binding.h looks up the names in a program.
+// docs/mapping-file.md describes its tables. This header knows only the file; binding.h looks up the names in a
+// program.
 #pragma once
 #include <cstdint>
 #include <functional>
@@ -18,24 +19,24 @@ namespace rung::host {
 
 enum class PinType : uint8_t { Bit, S32, U32, Float };
 
-inline constexpr std::string_view kFunctionKinds[] = {"M", "S", "T", "B", "H", "key"}; // by rung_function_kind
+inline constexpr std::string_view kFunctionKinds[] = {"M", "S", "T", "B", "H", "key"}; // indexed by rung_function_kind
 
 enum class Direction : uint8_t {
   In,        // HAL to the program
   Out,       // the program to HAL
-  Io,        // both: each side reads what the other has written last
-  Parameter, // set by a person, read by the program
+  Io,        // both: each side reads the value that the other has written last
+  Parameter, // set by a user, read by the program
 };
 
 inline bool toProgram(Direction direction) { return direction != Direction::Out; }
 inline bool fromProgram(Direction direction) { return direction == Direction::Out || direction == Direction::Io; }
 
-// A HAL pin or parameter to create. A pin that is named in several places is created once.
+// A HAL pin or parameter to create. A pin that is named in several entries is created once.
 struct Pin {
   std::string name;
   PinType type = PinType::Bit;
   Direction direction = Direction::In;
-  text::Position at;   // the first of these places
+  text::Position at;   // position of the first of these entries
   double safe = 0;     // value while the program does not run: before its first scan, after a fault, at the end
   bool holds = false;  // keeps its last value instead
   bool ofHost = false; // read and written by the host itself, also while the program does not run
@@ -43,18 +44,18 @@ struct Pin {
 
 // in, out, io, param: the pin and the name are the same quantity.
 struct Link {
-  uint32_t pin = 0; // in File::pins
+  uint32_t pin = 0; // index into File::pins
   std::string name;
-  double scale = 1; // float: the program's units in one unit of HAL; not 0, finite
-  // Not empty: pins for the bits of the cell from its lowest one on, `pin` is the first.
+  double scale = 1; // float: program units per HAL unit; finite, not 0
+  // If not empty: pins for the bits of the cell, lowest first; `pin` is the first.
   std::vector<uint32_t> bits;
-  std::optional<double> value; // of a parameter, at the start; without it, and for io pins, the value of the program
-  text::Position at;           // of the name
+  std::optional<double> value; // initial value of a parameter; if empty, and for io pins, the program's value
+  text::Position at;           // position of the name
 };
 
-// The name of a pin with other errors: it is looked up, too, so that all errors are reported at once.
+// The name in an entry with other errors: it is looked up, too, so that all errors are reported at once.
 struct NamedOnly {
-  std::string where; // its key, for messages
+  std::string where; // key of the entry, for messages
   std::string name;
   text::Position at;
   Direction direction = Direction::In;
@@ -70,7 +71,7 @@ struct Constant {
 
 // A pin that changes to a level.
 struct Edge {
-  uint32_t pin = 0; // in File::pins
+  uint32_t pin = 0; // index into File::pins
   bool rising = true;
 };
 
@@ -89,7 +90,7 @@ struct Send {
 struct Group {
   uint32_t code = 0;
   uint32_t group = 0;
-  text::Position at; // of the code
+  text::Position at; // position of the code
 };
 
 // PlcErrors: a file of the control that contains texts of messages.
@@ -102,10 +103,10 @@ struct MessageFile {
 struct AxisGroup {
   uint32_t axis = 0;
   uint32_t group = 0;
-  text::Position at; // of the axis
+  text::Position at; // position of the axis
 };
 
-// rungctl: what clients may do while the program runs.
+// rungctl: what clients are permitted to do while the program runs.
 enum class Remote : uint8_t { Set, Force, Reload, Start, Stop, Reset, Profile, Serve };
 inline constexpr std::string_view kRemoteNames[] = {"set",  "force", "reload",  "start",
                                                     "stop", "reset", "profile", "serve"}; // indexed by Remote
@@ -116,10 +117,10 @@ struct Protected {
   text::Position at;
 };
 
-// The kind of place of a pin's value on the other side of a connection.
+// The kind of address of a pin's value at the other side of a connection.
 enum class Area : uint8_t { Coil, DiscreteInput, HoldingRegister, InputRegister, Memory };
 
-// The format of the value there.
+// The format of the value at that address.
 enum class Format : uint8_t {
   Bit, // a byte of memory: 0 or 1
   S16, // a register
@@ -133,56 +134,57 @@ uint32_t registersOf(Format format); // 1 or 2
 uint32_t bytesOf(Format format);     // in memory; 0: only for registers
 
 struct ConnectedPin {
-  uint32_t pin = 0; // in File::pins
+  uint32_t pin = 0; // index into File::pins
   Area area = Area::Coil;
-  uint32_t place = 0; // Modbus: from 0; memory: in bytes
+  uint32_t place = 0; // address; Modbus: from 0; memory: in bytes
   Format format = Format::Bit;
-  bool lowFirst = false; // the first of two registers has the lower bits
-  double safe = 0;       // of an input: its value while the connection is silent
-  bool holds = false;    // it keeps its last value then instead
-  text::Position at;     // of the place
+  bool lowFirst = false; // the first of two registers has the low-order bits
+  double safe = 0;       // value of an input while the connection is silent
+  bool holds = false;    // the input keeps its last value instead
+  text::Position at;     // position of the address
 };
 
-// modbus-client, modbus-server, shared-memory: a connection that carries values of pins. rung-run serves them.
+// modbus-client, modbus-server, shared-memory: a connection that carries values of pins. Only rung-run serves
+// connections.
 struct Connection {
   enum class Kind : uint8_t { ModbusClient, ModbusServer, SharedMemory };
   Kind kind = Kind::ModbusClient;
-  std::string host = "127.0.0.1"; // an IP address: of the device, or where the server listens
+  std::string host = "127.0.0.1"; // IP address: of the device, or at which the server listens
   uint16_t port = 502;
   uint8_t unit = 1;                  // of the device
   std::string name;                  // of the shared memory
   int64_t periodNs = 10'000'000;     // client and shared memory: between two exchanges
   int64_t timeoutNs = 1'000'000'000; // a connection that is silent for longer is lost
-  uint32_t connections = 8;          // that a server accepts at the same time
-  uint32_t requests = 1000;          // that a server answers per second and connection
-  std::optional<uint32_t> statusPin; // in File::pins: an input bit, on while the connection is not lost
+  uint32_t connections = 8;          // accepted by a server at the same time
+  uint32_t requests = 1000;          // answered by a server per second and connection
+  std::optional<uint32_t> statusPin; // index into File::pins: an input bit that is on unless the connection is lost
   std::vector<ConnectedPin> pins;
   text::Position at;
 
   // "modbus-client 192.168.0.10:502"
   std::string title() const;
 };
-std::string_view kindName(Connection::Kind kind); // the table
+std::string_view kindName(Connection::Kind kind); // name of the table
 
 // devices: the devices of a TECHNOL program on this machine (machine/io). The host checks keys and values; paths are
 // relative to the folder of the file.
 struct DeviceSetting {
   enum class Kind : uint8_t {
-    Can,  // a channel and its interface
+    Can,  // a channel and its network interface
     Com,  // a port and its device
-    Axis, // an axis that the program positions, and the prefix of its pins' names
+    Axis, // an axis that the program positions, and the prefix of its pin names
     SharedFile,
     Config, // a key of the control's configuration and its value
   };
   Kind kind = Kind::Config;
   std::string key;
   std::string value;
-  text::Position at; // of the value
+  text::Position at; // position of the value
 };
 
-// A mapping file with the files that it includes; everything is in the order in which it is written.
+// A mapping file with the files that it includes; all entries are in the order of the text.
 struct File {
-  std::vector<std::string> paths; // the file, and those that it includes; Position::file counts them
+  std::vector<std::string> paths; // the file and those that it includes; Position::file is an index into them
   std::vector<Pin> pins;
   std::vector<Link> links;
   std::vector<NamedOnly> namedOnly;
@@ -191,13 +193,13 @@ struct File {
   std::vector<Group> groups;
   std::vector<MessageFile> messageFiles;
   std::vector<AxisGroup> axisGroups;
-  bool permissions[std::size(kRemoteNames)] = {}; // by Remote
+  bool permissions[std::size(kRemoteNames)] = {}; // indexed by Remote
   std::vector<Protected> protectedCells;
   std::vector<Connection> connections;
   std::vector<DeviceSetting> devices;
   std::vector<Edge> aborts;                // edges that end every function: reset, emergency stop
-  int64_t timeoutNs = 0;                   // of a function; 0: none
-  std::optional<text::Position> highSpeed; // place of `high-speed = true`
+  int64_t timeoutNs = 0;                   // timeout of a function; 0: none
+  std::optional<text::Position> highSpeed; // position of `high-speed = true`
 
   // "PATH:LINE:COLUMN: what"
   std::string message(text::Position at, std::string_view what) const;
@@ -206,18 +208,18 @@ struct File {
 // Reads the text of a file; throws std::exception with the reason: "cannot read PATH: …".
 using ReadFile = std::function<std::string(const std::string& path)>;
 
-// Whether a path, by its name, is that of a mapping file and not of a program.
+// Whether the name of a path is that of a mapping file, not of a program.
 bool isNamedAsMap(std::string_view path);
 
-// Reads from the disk: regular files of at most 1 MB.
+// Reads regular files of at most 1 MB from the disk.
 std::string readFromDisk(const std::string& path);
 
-// Every error is one entry of `errors`, PATH:LINE:COLUMN with what was found, what was expected and how to fix it, in
-// the order of the files; the result has the entries without errors. If a text is not TOML, the result is empty, and
-// there is one error, the first of its syntax. `read` reads included files.
+// Each entry of `errors` is PATH:LINE:COLUMN with what was found, what was expected and how to fix it, in the order of
+// the files; the result has the entries without errors. If a text is not TOML, the result is empty, and there is one
+// error, the first of its syntax. `read` reads included files.
 File parseMap(std::string_view text, const std::string& path, std::vector<std::string>& errors,
               const ReadFile& read = readFromDisk);
-// The same for a file, which `read` reads, too.
+// The same for a file, which is also read by `read`.
 File loadMap(const std::string& path, std::vector<std::string>& errors, const ReadFile& read = readFromDisk);
 
 // For hosts without connections: reports each connection as an error.

@@ -1,4 +1,4 @@
-// What the readers of a mapping file's tables share.
+// Shared by the readers of a mapping file's tables.
 #pragma once
 #include <optional>
 #include <string>
@@ -14,7 +14,7 @@ bool isPinName(std::string_view word);
 // A path named in a file, relative to the folder of that file.
 std::string beside(const std::string& path, const std::string& included);
 
-struct Place { // of a value
+struct Place { // a text value and its position
   std::string text;
   text::Position at;
 };
@@ -26,18 +26,18 @@ struct Number {
   text::Position at;
 };
 
-// The files of a map that are being read; positions have their numbers in File::paths.
+// The state of reading a map and the files that it includes; positions have the indices of File::paths.
 class Reading : public text::TomlReading {
 public:
   explicit Reading(File& map) : map_(map) {}
 
   File& map() { return map_; }
-  // "line 5", with its file where that is another one.
+  // "line 5", with the file if it is another one.
   std::string lineOf(text::Position at) const;
-  // In the order of the files.
+  // Sorted in the order of the files.
   std::vector<std::string> errors() const;
 
-  // A number, of 32 bits if it is an integer; nothing if it is something else, or not finite.
+  // A number; integers must fit into 32 bits. Nothing if the node is something else, or not finite.
   std::optional<Number> numberWithType(const toml::node& node) const;
   // Reports a value that does not fit the type: true or false for a bit, a number for the others, an integer if the
   // type has only integers.

@@ -25,7 +25,7 @@ union Value {
   double real = 0;
 };
 
-// Functions that read and write pins, by type. A host whose cells are not as wide as their types has its own.
+// Functions that read and write pins, by type. A host whose pin cells have other widths than PinCell supplies its own.
 struct PinAccess {
   Value (*read)(PinType type, const PinCell& cell) noexcept;
   void (*write)(PinType type, const PinCell& cell, const Value& value) noexcept;
@@ -35,19 +35,19 @@ struct PinAccess {
 extern const PinAccess kVariables;
 
 // The pins of a map in one step of the host: each input is read once before the step, and each output that was set is
-// written once after it, so that all code within a step sees the same values. One thread at a time.
+// written once after it, so that all code within a step sees the same values. Used by one thread at a time.
 
 class Pins {
 public:
-  // The values begin with 0.
+  // All values are 0 at first.
   explicit Pins(const std::vector<host::Pin>& pins);
-  // As many cells as there are pins, in their order; cells and access outlive this.
+  // `cells` has one cell per pin, in the order of the pins; cells and access must outlive this object.
   void connect(const PinCell* cells, const PinAccess& access) noexcept;
   bool connected() const noexcept { return cells_ != nullptr; }
 
   // Reads the pins that are inputs of the program. The pins must be connected.
   void read() noexcept;
-  // Reads all pins as they are on HAL's side.
+  // Reads the current HAL values of all pins.
   void look(std::span<Value> values) const noexcept;
   // Writes the pins that were set since the last call. The pins must be connected.
   void write() noexcept;

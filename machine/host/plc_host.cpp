@@ -53,11 +53,11 @@ PlcHost::PlcHost(const Image& image, File map, const Options& options)
   if (kept_) plc_.keep(options.retain);
 }
 
-// No exception may go through the library, which is one of C.
+// Exceptions must not pass through the library, which has a C interface.
 void PlcHost::log(void* host, int32_t level, const char* text) try {
   if (level != RUNG_LOG_INFO) static_cast<PlcHost*>(host)->logged_.emplace_back(text);
 } catch (const std::bad_alloc&) {
-  static_cast<PlcHost*>(host)->logged_.clear(); // room for what comes next
+  static_cast<PlcHost*>(host)->logged_.clear(); // frees memory for the next texts
 }
 
 int32_t PlcHost::request(void* host, rung_instance*, const rung_request* request, rung_reply* reply) {
@@ -83,7 +83,7 @@ std::unique_ptr<PlcHost> PlcHost::make(const Image& image, File map, const Optio
   return host;
 }
 
-// Constants in every slice, too: neither a restart nor the control can undo them.
+// Constants are written in every slice as well, so that neither a restart nor the control can change them.
 void PlcHost::bindValues() {
   values_.resize(binding_.links.size());
   constants_.resize(binding_.constants.size());
@@ -117,7 +117,7 @@ void PlcHost::bind(const Link& link, Value& value, rung_direction direction, dou
   check(rung_instance_bind(plc_.handle(), &variable, 1));
 }
 
-// A fault at the power-on shows in the first step.
+// A fault at power-on is noticed in the first step.
 int32_t PlcHost::start(std::string& problem) {
   hasRun_ = false;
   const int32_t status = rung_instance_power_on(plc_.handle(), kept_ ? RUNG_WARM : RUNG_COLD);
@@ -128,7 +128,7 @@ int32_t PlcHost::start(std::string& problem) {
   return status;
 }
 
-// What both sides write begins with the program's value; a parameter keeps a person's.
+// Pins that both sides write begin with the program's value; parameters keep the user's value.
 void PlcHost::beginWith(size_t index, bool first) noexcept {
   const PinLink& link = binding_.links[index];
   const bool parameter = link.direction == Direction::Parameter && first;
@@ -173,7 +173,7 @@ std::string PlcHost::stopText(const rung_fault_info& fault) const {
   return text;
 }
 
-// Once for each.
+// Reports each fault once.
 void PlcHost::reportFault() {
   const std::optional<rung_fault_info> info = reported_ ? std::nullopt : fault(); // or the scan thread has it
   if (!info) return;
@@ -185,7 +185,7 @@ void PlcHost::restart() {
   if (state_.load(std::memory_order_acquire) != State::Restarting) return;
   reportFault();
   functions_->restart();
-  live_.served.store(false, std::memory_order_release); // who serves has commands of the program that has stopped
+  live_.served.store(false, std::memory_order_release); // the provider has commands of the run that has stopped
   std::string problem;
   const bool started = start(problem) >= RUNG_OK;
   if (!started) reports_.push_back(problem);
@@ -198,7 +198,7 @@ void PlcHost::restart() {
   state_.store(started ? State::Running : State::Stopped, std::memory_order_release);
 }
 
-// When it begins to fail, why it fails for another reason, and when it is good again.
+// Reports when saving begins to fail, fails for another reason, or works again.
 void PlcHost::reportSaving() {
   const std::string problem = plc_.unsaved().value_or("");
   if (unsaved_ == problem) return;
@@ -228,7 +228,7 @@ CommandResult PlcHost::post(Command& command, std::chrono::milliseconds time) {
 
 namespace {
 
-// Where a name is in one program or the other; nothing: it is gone.
+// The place of a name in the running or in the new program; nothing if it does not exist.
 std::optional<rung_cell_info> placeOf(rung_instance* plc, const rung_replacement* in, const PinLink& link) {
   rung_cell_info info{};
   info.size = sizeof info;
@@ -262,7 +262,7 @@ PlcHost::Losses PlcHost::lossesBy(const rung_replacement* replacement) const {
                                   : ", at " + std::string(now->address) + ", is gone"));
     rung_cell cell = 0;
     if (toProgram(link.direction) && rung_instance_find(plc_.handle(), link.name.c_str(), RUNG_WRITE, &cell) == RUNG_OK)
-      losses.dead.push_back(cell); // bound, and so never released
+      losses.dead.push_back(cell); // the handle of a bound cell, which is not released
   }
   return losses;
 }
@@ -270,7 +270,7 @@ PlcHost::Losses PlcHost::lossesBy(const rung_replacement* replacement) const {
 std::string PlcHost::close() {
   std::string error;
   const int32_t status = rung_instance_power_off(plc_.handle());
-  if (status < RUNG_OK && status != RUNG_WRONG_STATE) error = rung_error_text(); // it may be off
+  if (status < RUNG_OK && status != RUNG_WRONG_STATE) error = rung_error_text(); // the instance may already be off
   if (pins_.connected()) clearPins();
   return error;
 }
@@ -280,7 +280,7 @@ bool PlcHost::powerOffDone() noexcept {
   if (restarting()) return false;
   if (plc_.beginPowerOff()) return false;
   ended_.store(true, std::memory_order_release);
-  // What the control runs first may have faulted: `serve` reports that as any other fault.
+  // The control may have caused a fault in its first run: `serve` reports it like any other fault.
   if (running() && (state().flags & RUNG_STATE_FAULTED) != 0) stop();
   return true;
 }
@@ -301,7 +301,7 @@ StepResult PlcHost::stepFast(int64_t ns, bool reset) noexcept {
   return result;
 }
 
-// False: the program does not run.
+// Returns false if the program does not run.
 bool PlcHost::beginStep(int64_t ns, bool reset) noexcept {
   const bool resets = reset && restartable_ && !ending_;
   const bool asked = resets && !wasReset_;
@@ -317,7 +317,7 @@ bool PlcHost::beginStep(int64_t ns, bool reset) noexcept {
   return true;
 }
 
-// Before a slice: functions begin, and inputs are read.
+// Begins functions and reads inputs before each slice.
 StepResult PlcHost::run(int64_t ns, int32_t (*due)(rung_instance*, int64_t)) noexcept {
   const rung_state before = state();
   if (before.wait_ns <= ns && !sliceBegun_) {
@@ -332,12 +332,12 @@ StepResult PlcHost::run(int64_t ns, int32_t (*due)(rung_instance*, int64_t)) noe
   }
   const bool wasDue = before.wait_ns <= ns;
   hasRun_ = hasRun_ || (wasDue && (before.flags & RUNG_STATE_STOPPED) == 0);
-  if (wasDue && hasRun_) writePins(); // one that was stopped before its first slice has not written any
+  if (wasDue && hasRun_) writePins(); // a program that was stopped before its first slice has not written any
   pins_.write();
   return wasDue ? StepResult::Ran : StepResult::Waiting;
 }
 
-// By a fault. Its text, which takes memory, is for `serve`: the struct ends before it.
+// Stops after a fault. `serve` gets the text, which needs memory: the size given here excludes it.
 void PlcHost::stop() noexcept {
   rung_fault_info info{};
   info.size = offsetof(rung_fault_info, text);
@@ -412,11 +412,11 @@ CommandSlot::Outcome PlcHost::execute(Command& command) noexcept {
   if (status == RUNG_OK || status == RUNG_EMPTY) return {status};
   const bool isOff = now == State::Stopped && (state().flags & RUNG_STATE_ON) == 0; // a restart has failed
   if (status == RUNG_FAULTED || isOff) return {status, "a fault has stopped the program: a reset restarts it"};
-  return {status == RUNG_WRONG_THREAD ? int32_t{RUNG_LATER} : status, rung_error_text()}; // who serves it has it
+  return {status == RUNG_WRONG_THREAD ? int32_t{RUNG_LATER} : status, rung_error_text()}; // the service thread has it
 }
 
-// An input without a pin must not keep a value that permits something. Where the new program cannot take over now, its
-// pin feeds it again before the next slice.
+// An input without a pin must not keep a value that permits something. If the new program cannot take over now, the pin
+// feeds it again before the next slice.
 int32_t PlcHost::replace(Command& command) noexcept {
   const rung_value none{};
   if (command.dead != nullptr)
@@ -449,7 +449,7 @@ int32_t PlcHost::executeRunning(Command& command) noexcept {
   case Command::Kind::Profile: return readProfile(plc, command);
   case Command::Kind::ClearProfile: return rung_instance_clear_profile(plc);
   case Command::Kind::Act: return command.act(command.actor), RUNG_OK;
-  case Command::Kind::Restart: break; // execute
+  case Command::Kind::Restart: break; // handled by execute
   }
   return RUNG_EMPTY;
 }

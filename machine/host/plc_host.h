@@ -1,5 +1,5 @@
-// A PLC program between HAL pins: all that the component does, without RTAPI. Everything is allocated when the host is
-// made; `step` allocates nothing, takes no lock and makes no system call.
+// A PLC program between HAL pins: the complete work of the component, without RTAPI. Everything is allocated when the
+// host is made; `step` allocates nothing, takes no lock and makes no system call.
 #pragma once
 #include <algorithm>
 #include <atomic>
@@ -24,7 +24,7 @@
 namespace rung::host {
 
 enum class StepResult : uint8_t {
-  Waiting, // no part of the schedule was due, or the program has stopped
+  Waiting, // no slice was due, or the program has stopped
   Ran,
   Failed, // a fault has stopped the program in this step
 };
@@ -33,106 +33,110 @@ class PlcHost {
 public:
   using NewInstance = std::function<Instance(const Image& image, const rung_instance_options& options)>;
   struct Options {
-    std::string retain;                              // FILE of FILE.a and FILE.b; "": it starts cold
-    NewInstance newInstance = {};                    // of a program that is not in a control alone
-    runtime::Clock* clock = &runtime::systemClock(); // for all but steps; outlives the host
+    std::string retain;                              // retained memory is in FILE.a and FILE.b; "": cold start
+    NewInstance newInstance = {};                    // makes instances; empty: without devices or a simulation
+    runtime::Clock* clock = &runtime::systemClock(); // for everything but steps; must outlive the host
     uint32_t catchUp = 0;                            // as in rung_instance_options
-    const char* reset = "pin reset rises";           // what restarts a program that has stopped, for people
+    const char* reset = "pin reset rises";           // how to restart a stopped program, for messages to users
   };
-  // Null, and `errors` say why, when the map does not fit the program. Throws rung::Error where it does, but the
-  // program cannot be switched on: another process has its retained memory. `warnings`, then, too: what the operator
-  // should know of the retained memory.
+  // Returns null, with the reasons in `errors`, if the map does not fit the program. Throws rung::Error if the program
+  // cannot be switched on because another process has its retained memory. `warnings` receives, in all cases, reports
+  // about the retained memory for the operator.
   static std::unique_ptr<PlcHost> make(const Image& image, File map, const Options& options,
                                        std::vector<std::string>& errors, std::vector<std::string>& warnings);
-  // A regular end, for the thread of the steps between two of them: begins it, and is asked again after each step.
-  // True: the program needs no more of them, and has had them with fresh inputs. Nothing is restarted any more; a
-  // restart that `serve` has begun is waited for.
+  // Scan thread, between two steps: begins the regular power-off, and is called again after each step. Returns true
+  // when the program needs no more steps and has run its last scans with fresh inputs. Nothing is restarted from then
+  // on; a restart that `serve` has begun is waited for.
   bool powerOffDone() noexcept;
   bool ending() const noexcept { return ending_; }                               // any thread
   bool ended() const noexcept { return ended_.load(std::memory_order_acquire); } // any thread
-  // After the last step, or where none can come any more: the program's last scans run where they have not, output pins
-  // have their safe values then, and what is retained is on disk; "" or why not.
+  // To be called after the last step, or when no more steps can come: runs the program's last scans if they have not
+  // run, sets output pins to their safe values, and writes retained memory to disk. Returns "", or why it could not be
+  // written.
   std::string close();
 
   const std::vector<Pin>& pins() const { return map_.pins; }
-  // As many cells as there are pins, in their order; they outlive the host. They get the values that they begin with.
+  // `cells` has one cell per pin, in the order of the pins, and must outlive the host. The pins get their initial
+  // values.
   void connect(const PinCell* cells, const PinAccess& access = kVariables) noexcept;
 
-  // The clock of the thread advances by `ns`: what is due of the program's schedule runs on fresh inputs. A step that
-  // runs nothing only watches for edges. After a fault all output pins have their safe values, until `reset` rises and
+  // Scan thread: advances the program's time by `ns` and runs the slices that are due with fresh inputs. A step that
+  // runs no slice only watches for edges. After a fault all output pins have their safe values until `reset` rises and
   // `serve` has restarted the program.
   StepResult step(int64_t ns, bool reset = false) noexcept;
-  // The same for a host that runs the fast task in a place of its own, in the same thread: a slice that is due runs up
-  // to the end of its fast task. Its rest is the next step's, which is given the time since.
+  // Scan thread, for a host that calls the fast task separately: runs a slice that is due up to the end of its fast
+  // task. The next `step` runs the rest of the slice, and is given the time since this call.
   StepResult stepFast(int64_t ns, bool reset = false) noexcept;
-  // The program is not run any more: output pins have their safe values.
+  // Sets output pins to their safe values, because the program no longer runs.
   void clearPins() noexcept;
-  // The scan thread: as they are at this moment. As many values as there are pins; nothing is read before `connect`.
+  // Scan thread: reads the current values of the pins. `values` has one value per pin; nothing is read before
+  // `connect`.
   void lookAtPins(std::span<Value> values) const noexcept { pins_.look(values); }
-  // How long the program may run in a step before that counts as a fault; 0: its budgets alone count.
+  // Sets how long the program may run in one step; a longer run is a fault. 0: only the budgets apply.
   void setTimeLimit(int64_t ns) noexcept {
-    constexpr int64_t kHour = 3'600'000'000'000; // more is none
+    constexpr int64_t kHour = 3'600'000'000'000; // the largest limit
     plc_.limit(std::min(ns, kHour));
   }
-  // For the thread of the steps, between two of them: reads what a step reads of the program, as long as
-  // CLOCK_MONOTONIC has not come to `untilNs`, so that the next one finds it in the processor's caches.
+  // Scan thread, between two steps: reads the memory that a step uses until CLOCK_MONOTONIC reaches `untilNs`, so that
+  // the next step finds it in the processor's caches.
   void prefetch(int64_t untilNs) const noexcept {
     if (running()) plc_.prefetch(untilNs);
   }
-  // Whether a restart after a fault may begin, before a step: it waits while the host still moves something.
+  // Scan thread, before a step: whether a restart after a fault may begin; it waits while the host still moves an axis.
   void setRestartable(bool is) noexcept { restartable_ = is; }
-  // The thread of `serve`; the scan thread does it in its next step (see commands.h). While it waits, a restart that
-  // the scan thread asks for is done.
+  // Service thread: posts a command, which the scan thread executes in its next step (commands.h). A restart that the
+  // scan thread requests is done while this waits.
   CommandResult post(Command& command, std::chrono::milliseconds time = kPatience);
   static constexpr std::chrono::milliseconds kPatience{1000};
-  // One thread at a time, any. False: the program has shown nothing since.
+  // Any thread, one at a time. Returns false if there are no more messages of the program.
   bool nextMessage(rung_message_info& message) const noexcept;
-  // The program's next request to a CNC that a client serves (`live().served`), for one thread at a time. False: no
-  // request waits.
+  // The program's next request to a CNC that a client serves (`live().served`); any thread, one at a time. Returns
+  // false if no request waits.
   Live& live() noexcept { return live_; }
   bool nextRequest(rung_request& request) const noexcept;
-  const Translation& translation() const noexcept { return translation_; } // of its requests
+  const Translation& translation() const noexcept { return translation_; } // of the program's requests
   void answer(const rung_reply& reply) const noexcept { rung_instance_answer(plc_.handle(), &reply); }
   rung_instance* instance() const noexcept { return plc_.handle(); }
   const File& map() const noexcept { return map_; }
   runtime::Clock& clock() const noexcept { return clock_; }
-  // What is written into the program before every slice.
+  // A value that is written to the program before every slice.
   struct Feed {
-    std::string name;              // of the cell
-    std::string by;                // "pin door" or "a constant of the mapping file"
-    std::vector<std::string> bits; // pins of its bits, from the lowest one on
+    std::string name;              // name of the cell
+    std::string by;                // the source: "pin door" or "a constant of the mapping file"
+    std::vector<std::string> bits; // pins of the cell's bits, lowest first
   };
   const std::vector<Feed>& feeds() const noexcept { return feeds_; }
 
-  // What the map loses when the new program of a replacement takes over; not for the scan thread.
+  // The entries of the map that no longer fit when the new program of a replacement takes over; not for the scan
+  // thread.
   struct Losses {
-    std::vector<std::string> mistakes; // as at the start: the program does not take over
+    std::vector<std::string> mistakes; // errors as at the start: they prevent the replacement
     std::vector<std::string>
-        moved; // pins whose cells are elsewhere then, or gone: where that is not meant it does not either
-    std::vector<rung_cell> dead; // inputs that no pin feeds any more
+        moved; // pins whose cells have moved or no longer exist: they prevent the replacement unless that is intended
+    std::vector<rung_cell> dead; // inputs that are no longer fed by a pin
   };
   Losses lossesBy(const rung_replacement* replacement, const rung_program& next) const;
-  // Of one that ran, with this map, already: it makes no mistakes.
+  // The same for a program that has already run with this map and therefore causes no errors.
   Losses lossesBy(const rung_replacement* replacement) const;
 
-  // Not the scan thread, again and again: what a step must not do itself, a fault in words, and the restart after it.
-  // True: there was something of that, and `reports` says what the operator should know of it.
+  // Service thread, periodically: does the work that a step must not do itself: the text of a fault, and the restart
+  // after it. Returns true if there was such work; `reports` receives the reports for the operator.
   bool serve(std::vector<std::string>& reports);
   bool running() const noexcept { return state_.load(std::memory_order_acquire) == State::Running; }
-  // `serve` has the program: nothing else may touch what belongs to it.
+  // `serve` is restarting the program: no other code may access the instance.
   bool restarting() const noexcept { return state_.load(std::memory_order_acquire) == State::Restarting; }
 
-  // While it does not run, for the thread that serves it.
+  // Service thread, while the program does not run.
   std::optional<rung_fault_info> fault() const noexcept;
-  // The line of the last fault; 0: none. Any thread.
+  // The source line of the last fault; 0: none. Any thread.
   uint32_t faultLine() const noexcept { return faultLine_.load(std::memory_order_relaxed); }
-  // Of the instance; while it runs, for the scan thread.
+  // The state of the instance; only for the scan thread while the program runs.
   rung_state state() const noexcept;
   bool failsToSave() const noexcept { return (state().flags & RUNG_STATE_UNSAVED) != 0; }
   const FunctionQueue& functions() const { return *functions_; }
-  // How often `serve` has switched the program on again; its thread.
+  // Service thread: how often `serve` has switched the program on again.
   uint32_t restarts() const noexcept { return restarts_; }
-  // Why the last restart has failed; "" where it has not.
+  // Why the last restart failed; "": it did not.
   const std::string& restartProblem() const noexcept { return restartProblem_; }
 
 private:
@@ -147,7 +151,7 @@ private:
   void beginWith(size_t link, bool first) noexcept;
   Value valueInProgram(const PinLink& link) noexcept;
   void setPins(const PinLink& link, const Value& value) noexcept;
-  int32_t start(std::string& problem); // the status, and why it is none
+  int32_t start(std::string& problem); // returns the status; `problem` gets the reason of a failure
   std::string stopText(const rung_fault_info& fault) const;
   void stop() noexcept;
   void reportFault();
@@ -169,30 +173,30 @@ private:
   const Translation& translation_;
   rung_instance_options options_;
   Instance plc_;
-  bool kept_; // there is a file for retained memory
+  bool kept_; // retained memory has a file
   const char* const reset_;
   Binding binding_;
-  std::vector<Value> values_, constants_;       // bound to the program; by binding_
-  std::vector<size_t> toProgram_, fromProgram_; // links
+  std::vector<Value> values_, constants_;       // bound to the program; indexed as the entries of binding_
+  std::vector<size_t> toProgram_, fromProgram_; // indices of links
   std::vector<Feed> feeds_;
-  std::unique_ptr<FunctionQueue> functions_; // once the map is bound
+  std::unique_ptr<FunctionQueue> functions_; // set once the map is bound
   Pins pins_;
   CommandSlot commands_;
   runtime::Clock& clock_;
   bool wasReset_ = false;
   bool restartable_ = true;
-  std::atomic<bool> ending_{false}; // `ends` was asked
+  std::atomic<bool> ending_{false}; // `powerOffDone` has been called
   std::atomic<bool> ended_ = false;
-  bool hasRun_ = false;     // a slice, since it was switched on: outputs are the program's
+  bool hasRun_ = false;     // a slice has run since power-on, so outputs are the program's
   bool sliceBegun_ = false; // by `stepFast`
-  // The thread of `serve`.
-  bool reported_ = false; // the fault that has stopped it
-  std::string unsaved_;   // why retained memory was not saved, as it was reported; ""
+  // Service thread:
+  bool reported_ = false; // the fault that stopped the program has been reported
+  std::string unsaved_;   // the reported reason why retained memory was not saved; "": none
   std::vector<std::string> reports_;
   uint32_t restarts_ = 0;
   std::string restartProblem_;
-  runtime::Alone scans_;  // the thread of the steps
-  runtime::Alone serves_; // the thread of `serve` and `command`
+  runtime::Alone scans_;  // only the scan thread
+  runtime::Alone serves_; // only the thread of `serve` and `post`
   std::atomic<uint32_t> faultLine_{0};
   std::atomic<State> state_{State::Running};
 };

@@ -1,5 +1,5 @@
 // The last reported state of a CNC, for requests that are answered within the scan that makes them. Written by the
-// service thread, read by the scan thread; each value is consistent in itself, but different values may be of different
+// service thread, read by the scan thread; each value is consistent, but different values may be from different
 // moments.
 #pragma once
 #include <array>
@@ -17,7 +17,7 @@ inline constexpr uint32_t kMostAxes = 9;
 
 struct Live {
   std::atomic<bool> served{false}; // a client answers requests
-  std::atomic<bool> known{false};  // and has reported the values below
+  std::atomic<bool> known{false};  // the client has reported the values below
   std::atomic<uint32_t> line{0};   // line of the running part program; 0: none
   std::atomic<uint32_t> axes{0};
   std::array<std::atomic<double>, kMostAxes> machine{}; // positions in machine coordinates
@@ -32,7 +32,7 @@ enum class Quantity : uint8_t {
   ToolLengthWear,
   ToolRadius,
   ToolRadiusWear,
-  WorkOffset, // `number` 0: of all work coordinate systems; 1 to 6: G54 to G59; from 7 on the further ones
+  WorkOffset, // `number` 0: offset of all work coordinate systems; 1 to 6: G54 to G59; from 7 on the additional ones
   ToolNumber, // `number` 0: in the spindle; 1: preselected
   AxisMove,   // motion of an axis that belongs to the program: always a write
 };
@@ -40,7 +40,7 @@ inline constexpr std::string_view kQuantityNames[] = {"macro-variable", "tool-le
                                                       "tool-radius",    "tool-radius-wear", "work-offset",
                                                       "tool-number",    "axis-move"}; // by Quantity
 
-// How an axis of the program moves, until the next motion or its reset.
+// How an axis of the program moves until its next motion or its reset.
 enum class MotionKind : uint8_t {
   To,    // a position in its coordinate system
   By,    // a distance
@@ -58,7 +58,7 @@ struct Operation {
   uint32_t channel = 0; // from 0
   uint32_t number = 0;
   uint32_t axis = 0;                  // of a work offset; of a motion: from 0 in the order of the program
-  double value = 0;                   // to be written
+  double value = 0;                   // the value to be written
   MotionKind motion = MotionKind::To; // of a move
   double speed = 0;                   // of a move, per minute; 0: rapid
   bool untilOver = false;             // a motion is answered at its end, otherwise when it is accepted
@@ -70,14 +70,14 @@ enum class Outcome : uint8_t {
   NoNumber,   // no such number or channel
   NoAxis,
   BadValue,
-  NotNow, // off, busy or locked; also if no client answers
+  NotNow, // off, busy or locked; or no client answers requests
 };
 inline constexpr std::string_view kOutcomeNames[] = {"done",    "no-quantity", "no-number",
                                                      "no-axis", "bad-value",   "not-now"}; // by Outcome
 
 struct NcAnswer {
   Outcome outcome = Outcome::NotNow;
-  double value = 0; // that was read
+  double value = 0; // the value that was read
 };
 
 // Converts requests of a dialect's programs to operations, and outcomes to the dialect's results and errors. This class
@@ -86,12 +86,12 @@ class Translation {
 public:
   virtual ~Translation() = default;
 
-  // Scan thread, in rung_instance_options::request: returns an enum rung_answer. If no client serves, or no operation
-  // corresponds to the request, the control refuses at once. Allocates nothing.
+  // Scan thread, called by rung_instance_options::request: returns an enum rung_answer. If no client serves, or no
+  // operation corresponds to the request, the control refuses at once. Allocates nothing.
   virtual int32_t atOnce(const rung_request& request, const Live& live, rung_reply& reply) const noexcept {
     return (void)request, (void)live, (void)reply, RUNG_REFUSE;
   }
-  // The operation of a request; nothing: `refusal` is the answer.
+  // Returns the operation of a request; nothing: `refusal` is the answer.
   virtual std::optional<Operation> operationOf(const rung_request& request, rung_reply& refusal) const {
     return (void)request, (void)refusal, std::nullopt;
   }
@@ -100,7 +100,7 @@ public:
   }
 };
 
-// By rung_program::dialect.
+// The translation for a rung_program::dialect.
 const Translation& translationOf(std::string_view dialect);
 
 // The window functions of GSK25i (man. §9.3) and its PLC axis control (§9.2). High-speed window functions are answered

@@ -15,7 +15,7 @@ using nc::gsk::WindowEnd;
 using nc::gsk::WindowField;
 using nc::gsk::WindowFunction;
 
-enum Code : uint16_t { // of functions
+enum Code : uint16_t { // codes of functions
   kReadOffset = 1,
   kWriteOffset = 2,
   kReadOrigin = 3,
@@ -27,11 +27,11 @@ enum Code : uint16_t { // of functions
   kTool = 31,
 };
 
-// The request's arguments.
+// The arguments of a window request.
 struct Window {
   bool write;
   uint64_t code, length, number, attribute;
-  int64_t data; // of a write
+  int64_t data; // for a write
   const WindowFunction* function;
 };
 
@@ -56,7 +56,7 @@ rung_reply ended(const Window& window, uint32_t ticket, WindowEnd end, double da
           .results = {end, end == nc::gsk::kWindowDone ? std::llround(data) : 0}};
 }
 
-// What was read, in the function's units; not a value where it is too long for the length that is asked for.
+// The answer to a read, in the units of the function; an error if the value exceeds the requested length.
 rung_reply given(const Window& window, uint32_t ticket, double value) noexcept {
   const double data = std::round(value * window.function->scale);
   return fits(data, window.length) ? ended(window, ticket, nc::gsk::kWindowDone, data)
@@ -67,7 +67,7 @@ bool isOutside(const WindowField& field, uint64_t value) noexcept {
   return !field.meaning.empty() && (value < field.min || (field.max != nc::gsk::kNoLimit && value > field.max));
 }
 
-// In the order of the end codes.
+// Checks in the order of the end codes.
 WindowEnd mistakeOf(const Window& w) noexcept {
   const WindowFunction* f = w.function;
   if (f == nullptr || (f->access == WindowAccess::Write) != w.write) return nc::gsk::kWindowBadFunction;
@@ -89,7 +89,7 @@ rung_reply highSpeed(const Window& window, uint32_t ticket, const Live& live) no
 
 std::optional<Quantity> quantityOf(const Window& window) noexcept {
   constexpr Quantity kOffsets[] = {Quantity::ToolLength, Quantity::ToolLengthWear, Quantity::ToolRadius,
-                                   Quantity::ToolRadiusWear}; // by the attribute
+                                   Quantity::ToolRadiusWear}; // indexed by the attribute
   switch (window.code) {
   case kReadOffset:
   case kWriteOffset: return kOffsets[window.attribute];
@@ -114,9 +114,9 @@ WindowEnd endOf(Outcome outcome, bool write) noexcept {
   return nc::gsk::kWindowNotProvided;
 }
 
-// Nothing: no CNC offers the motion to its program. A turn of the command in r/min is 360 degrees (l.8407).
+// Nothing: CNCs do not offer this motion to their programs. One turn of the command in r/min is 360 degrees (l.8407).
 std::optional<Operation> moveOf(const int64_t* args) noexcept {
-  constexpr double kUnits = 10000; // of data 2 in a mm or a degree (P54)
+  constexpr double kUnits = 10000; // units of data 2 per mm or degree (P54)
   Operation move{.quantity = Quantity::AxisMove,
                  .write = true,
                  .axis = static_cast<uint32_t>(args[0]),
@@ -129,7 +129,7 @@ std::optional<Operation> moveOf(const int64_t* args) noexcept {
   case nc::gsk::kAxisRapid:
   case nc::gsk::kAxisFeed: move.motion = MotionKind::By; break;
   case nc::gsk::kAxisMachineCoordinate: move.motion = MotionKind::At; break;
-  case nc::gsk::kAxisManualReturn: move.speed = 0; [[fallthrough]]; // parameter 1428 of the control
+  case nc::gsk::kAxisManualReturn: move.speed = 0; [[fallthrough]]; // the speed is parameter 1428 of the control
   case nc::gsk::kAxisReference1:
     move.motion = MotionKind::Home;
     move.value = 0;

@@ -1,4 +1,4 @@
-// Macro variables, blocks of movement and quantities of the scope: errors are FL_ER=1 in the program.
+// Macro variables, movement blocks and quantities of the scope. Errors set FL_ER=1 in the program.
 #include "rtlib/nc/nct/axis_codes.h"
 
 #include <array>
@@ -14,7 +14,7 @@ namespace {
 
 using nc::nct::ServiceKind;
 
-// Without a kind: no CNC offers the motion to its program.
+// A motion; without a kind, CNCs do not offer it to their programs.
 struct Motion {
   std::optional<MotionKind> kind;
   bool rapid = true;
@@ -34,7 +34,7 @@ constexpr std::array<Motion, 15> kMotions = {{{MotionKind::To},
                                               {MotionKind::Dwell},
                                               {},
                                               {MotionKind::Jog, kFeed},
-                                              {}}}; // by the codes of axis_codes.h
+                                              {}}}; // indexed by the codes of axis_codes.h
 
 std::optional<Operation> moveOf(const int64_t* args) noexcept {
   const bool known = args[0] >= 0 && args[0] < nc::nct::kAxes && args[1] >= 0 && args[1] < std::ssize(kMotions);
@@ -55,7 +55,7 @@ bool isPosition(int64_t symbol) noexcept {
   return name == "ActPosAx" || name == "ComPosAx";
 }
 
-// Positions of axes, which count from 1 there. A CNC says nothing of the rest.
+// Answers positions of axes, which count from 1 in requests; the other quantities are not known.
 int32_t scopeAtOnce(const rung_request& request, const Live& live, rung_reply& reply) noexcept {
   const int64_t axis = request.args[1] - 1;
   if (!live.known.load(std::memory_order_acquire) || !isPosition(request.args[0]) || axis < 0 ||
@@ -76,7 +76,7 @@ Operation macroOf(const int64_t* args, bool write) {
 
 class NctTranslation final : public Translation {
 public:
-  // A move is taken without an answer, so what no CNC can do is refused before.
+  // A move has no answer, so motions that no CNC offers are refused here.
   int32_t atOnce(const rung_request& request, const Live& live, rung_reply& reply) const noexcept override {
     switch (kindOf(request)) {
     case ServiceKind::Unknown:
@@ -95,7 +95,7 @@ public:
     case ServiceKind::ReadMacro: return macroOf(request.args, false);
     case ServiceKind::WriteMacro: return macroOf(request.args, true);
     case ServiceKind::MoveAxis: return moveOf(request.args);
-    default: return std::nullopt; // is refused, or answered at once
+    default: return std::nullopt; // refused, or answered at once
     }
   }
 

@@ -1,4 +1,4 @@
-// Sockets that are closed with their objects, and the one that others connect to.
+// Sockets that are closed with their objects, and the listening socket of a server.
 #pragma once
 #include <poll.h>
 #include <sys/socket.h>
@@ -26,15 +26,16 @@ private:
   int number_;
 };
 
-// Of a server, for one thread. Where the system has no file for another client, poll would say at once, again and
-// again, that one waits: for a turn it is not asked for any.
+// The listening socket of a server, for one thread. If the system has no file descriptor for another client, poll would
+// report at once, again and again, that one waits; the socket is therefore not polled for one turn.
 class Listener {
 public:
   explicit Listener(Socket socket) noexcept : socket_(std::move(socket)) {}
 
   // For the poll of the next turn.
   pollfd awaited() noexcept { return {std::exchange(pauses_, false) ? -1 : socket_.number(), POLLIN, 0}; }
-  // The client that has come; without a number: it has gone again, or there is no file for it.
+  // Accepts a waiting client. Returns a socket without a number if the client has disconnected again, or the system has
+  // no file descriptor for it.
   Socket accept() noexcept {
     Socket made(accept4(socket_.number(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK));
     pauses_ = made.number() < 0 && errno != EAGAIN && errno != ECONNABORTED;

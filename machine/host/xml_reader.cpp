@@ -1,4 +1,4 @@
-// The parser under the readers of XML files (see xml_reader.h).
+// The parser common to the readers of XML files (see xml_reader.h).
 #include "machine/host/xml_reader.h"
 
 #include <cerrno>
@@ -24,9 +24,9 @@ namespace {
 
 constexpr size_t kMostBytes = size_t{1} << 28;
 constexpr size_t kMostComplaints = 100;
-constexpr size_t kShown = 40; // bytes of a text in a complaint
+constexpr size_t kShown = 40; // bytes of a text in a message
 
-// Czech sets of one byte a character; expat knows UTF-8, UTF-16, ISO-8859-1 and US-ASCII itself.
+// Czech single-byte encodings; expat itself knows UTF-8, UTF-16, ISO-8859-1 and US-ASCII.
 int knowEncoding(void*, const XML_Char* name, XML_Encoding* encoding) {
   struct Named {
     std::string_view name;
@@ -61,7 +61,6 @@ std::string listed(std::span<const std::string_view> names) {
 
 std::string inQuotes(std::string_view text) { return "'" + std::string(text) + "'"; }
 
-// Line breaks with the blanks around them become one blank.
 std::string inOneLine(std::string_view text) {
   text = text::trimmed(text);
   std::string line;

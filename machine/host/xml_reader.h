@@ -1,5 +1,5 @@
 // Shared by the readers of the control's XML files: the parser (expat) with its limits and encodings, the open
-// elements, errors with their places, and attributes. Each reader knows the meaning of its elements.
+// elements, errors with their positions, and attributes. Each reader knows the meaning of its elements.
 #pragma once
 #include <algorithm>
 #include <cstddef>
@@ -15,7 +15,7 @@ struct XML_ParserStruct;
 
 namespace rung::host {
 
-// A place in a file, for messages: "FILE:LINE:COLUMN".
+// A position in a file, for messages: "FILE:LINE:COLUMN".
 using FilePlace = std::string;
 
 // "A, B or C".
@@ -24,7 +24,7 @@ std::string inQuotes(std::string_view text);
 // Replaces line breaks, with the blanks around them, by one blank.
 std::string inOneLine(std::string_view text);
 
-// Reads the whole file; "", or why it cannot be read.
+// Reads the whole file. Returns "", or why it cannot be read.
 std::string textOfFile(const std::string& path, std::string& text);
 
 class XmlReader {
@@ -40,18 +40,18 @@ protected:
     uint64_t line;
   };
 
-  // Parses a text. "", or the errors, one line "FILE:LINE:COLUMN: ..." each.
+  // Parses a text. Returns "", or the errors, one line "FILE:LINE:COLUMN: ..." each.
   std::string parse(std::string_view text);
 
-  FilePlace place() const; // the place that is being read
+  FilePlace place() const; // the position that is being read
   void complain(const std::string& what) { complainAt(place(), what); }
   void complainAt(const FilePlace& where, const std::string& what);
   // Reports that <OUTER> must not contain <NAME>; `expected` is "<A> or <B>", or empty if a text was expected.
   void complainAboutChild(std::string_view name, const std::string& expected);
-  // Reports text around an element, where none is expected.
+  // Reports text beside an element, where none is expected.
   void complainAboutText();
 
-  std::vector<Open> open_; // innermost last
+  std::vector<Open> open_; // open elements, innermost last
   std::string text_;       // text since the last beginning or end of an element
 
 private:
@@ -60,8 +60,8 @@ private:
     void operator()(XML_ParserStruct* parser) const;
   };
 
-  // Called at the beginning of an element (`opens` before it is among the open ones) and at its end (while it still
-  // is).
+  // Called at the beginning of an element (`opens` before it is added to the open ones) and at its end (before it is
+  // removed from them).
   virtual void opens(std::string_view name) = 0;
   virtual void begin(std::string_view name, const char** attributes) = 0;
   virtual void end() = 0;
@@ -86,7 +86,7 @@ public:
   void number(std::string_view name, uint32_t most, uint32_t& value);
   void real(std::string_view name, double& value);
   void real(std::string_view name, std::optional<double>& value);
-  // One of the names, in the order of the values of E.
+  // An attribute that must be one of the names, in the order of the values of E.
   template <class E>
   void oneOf(std::string_view name, std::span<const std::string_view> names, E& value) {
     const std::string text = required(name);

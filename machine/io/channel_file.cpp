@@ -1,4 +1,4 @@
-// Devices of the channel's file (see channel_file.h).
+// See channel_file.h.
 #include "machine/io/channel_file.h"
 
 #include <algorithm>
@@ -20,14 +20,14 @@ std::string_view valueOf(const DeviceDefinition& device, std::string_view name) 
   return found == device.attributes.end() ? std::string_view() : std::string_view(found->value);
 }
 
-// l.3242-3285; the others are about EDS files and how the channel is reached.
+// Attributes in l.3242-3285; the others concern EDS files and the connection of the channel.
 bool isOfChannel(std::string_view name) {
   constexpr std::string_view kNames[] = {"Active",     "CanSpeed",   "ServicePeriod", "PhysicalCanChannel",
                                          "SyncPeriod", "InOut08Cnt", "Kla50Cnt",      "KnobCnt"};
   return std::ranges::any_of(kNames, [&](std::string_view known) { return text::equalsIgnoringCase(name, known); });
 }
 
-// The key of the configuration that says the same; "": none does.
+// The configuration key with the same meaning; "": there is none.
 std::string keyOf(const DeviceDefinition& device, std::string_view name) {
   const std::string attribute = "." + std::string(name), index = "[" + std::to_string(device.number) + "]";
   switch (device.kind) {
@@ -41,8 +41,8 @@ std::string keyOf(const DeviceDefinition& device, std::string_view name) {
   return {};
 }
 
-// Types of servos whose drives are on CAN channel 1 (l.9242-9271): all but software, the model of a machine and
-// EtherCAT. Drives are numbered from 1 up without gaps (l.9203), as axes are.
+// Servo types with drives on CAN channel 1 (l.9242-9271): all except software, the machine model and EtherCAT. Drives
+// are numbered from 1 without gaps (l.9203), like axes.
 std::string configureServo(ConfiguredDevices& target, const DeviceDefinition& servo) {
   constexpr uint32_t kFirstDrive = 3, kLastDrive = 27, kModel = 18, kFirstUnidrive = 7, kLastUnidrive = 9;
   const std::string_view type = valueOf(servo, "ServoType");
@@ -58,7 +58,7 @@ std::string configureServo(ConfiguredDevices& target, const DeviceDefinition& se
 
 std::string configureDevice(ConfiguredDevices& target, const DeviceDefinition& device) {
   if (device.kind == DeviceKind::Servo) return configureServo(target, device);
-  // A channel that is not active has no units (l.3246), whatever is said of them.
+  // A channel that is not active has no units (l.3246), whatever its attributes are.
   if (device.kind == DeviceKind::CanChannel && valueOf(device, "Active") != "1") return {};
   for (const DeviceDefinition::Attribute& attribute : device.attributes) {
     const std::string key = keyOf(device, attribute.name);

@@ -1,5 +1,5 @@
-// The devices that the control's own file of the channel describes (control_files.h): its elements have the attributes
-// that keys of the configuration have. Attributes of other parts of the control are passed over.
+// The devices described by the control's own channel file (control_files.h): its elements have the same attributes as
+// the keys of the configuration. Attributes for other parts of the control are ignored.
 #pragma once
 #include <cstdint>
 #include <span>
@@ -10,19 +10,19 @@
 
 namespace rung::io {
 
-// Whose devices are configured.
+// The devices to be configured.
 class ConfiguredDevices {
 public:
-  // "" or what is wrong.
+  // Returns "", or the error.
   virtual std::string set(std::string_view key, std::string_view value) = 0;
-  // Drives on CAN so far.
+  // Number of drives on CAN so far.
   virtual uint32_t drives() const = 0;
 
 protected:
   ~ConfiguredDevices() = default;
 };
 
-// "" or what is wrong with one of them, with its place.
+// Returns "", or the first error with its position.
 std::string configureDevices(ConfiguredDevices& target, std::span<const host::DeviceDefinition> definitions);
 
 } // namespace rung::io

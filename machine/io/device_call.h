@@ -1,5 +1,5 @@
-// A request of a TECHNOL program to a device, while it is answered, and the bytes of answers that programs fetch
-// afterwards (rtlib/nc/technol/services.h). The device may be simulated or real. Nothing here allocates.
+// A request of a TECHNOL program to a device while it is being answered, and the bytes of answers that programs fetch
+// afterwards (rtlib/nc/technol/services.h). The device may be simulated or real. Nothing here allocates in a scan.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -20,24 +20,24 @@
 
 namespace rung::io {
 
-// Where the bytes of answers go.
+// Storage for the bytes of answers.
 class AnswerRoom {
 public:
   static constexpr uint32_t kMost = nc::technol::kMostArgumentBytes; // of one answer
 
-  // For the bytes of an answer, at most so many.
+  // Makes room for the bytes of an answer, at most `count`.
   virtual std::span<uint8_t> make(uint32_t ticket, uint32_t count) = 0;
 
 protected:
   ~AnswerRoom() = default;
 };
 
-// Bytes of the latest answers, by their tickets.
+// The bytes of the latest answers, by ticket.
 class AnswerBytes final : public AnswerRoom {
 public:
   AnswerBytes() : bytes_(std::make_unique<std::array<uint8_t, kRoom>>()) {}
 
-  // The oldest answers lose theirs.
+  // Overwrites the bytes of the oldest answers.
   std::span<uint8_t> make(uint32_t ticket, uint32_t count) override {
     count = std::min(count, kMost);
     if (kRoom - end_ < count) end_ = 0;
@@ -62,11 +62,11 @@ public:
 private:
   static constexpr uint32_t kRoom = 1u << 18;
   struct Entry {
-    uint32_t ticket = 0; // 0: none
+    uint32_t ticket = 0; // 0: unused
     uint32_t first = 0;
     uint32_t count = 0;
   };
-  std::array<Entry, core::ServiceQueue::kRecords> entries_ = {}; // as long as a ticket is known
+  std::array<Entry, core::ServiceQueue::kRecords> entries_ = {}; // enough for all known tickets
   size_t next_ = 0;
   uint32_t end_ = 0;
   std::unique_ptr<std::array<uint8_t, kRoom>> bytes_;
@@ -79,20 +79,20 @@ inline ServiceKind kindOf(const core::ServiceRequest& request) { return static_c
 
 class DeviceCall {
 public:
-  // Within the program's instruction.
+  // For an answer within the program's instruction.
   DeviceCall(const runtime::Instance& instance, const core::ServiceRequest& request, core::ServiceReply& reply,
              AnswerRoom& room)
       : instance_(&instance), request_(request), reply_(reply), room_(room) {
     begin();
   }
-  // Later, and not in the scan: `given` are the program's bytes, of the one argument that means some.
+  // For a later answer, outside the scan: `given` are the program's bytes of the one argument that refers to bytes.
   DeviceCall(std::span<const uint8_t> given, const core::ServiceRequest& request, core::ServiceReply& reply,
              AnswerRoom& room)
       : given_(given), request_(request), reply_(reply), room_(room) {
     begin();
   }
 
-  // Within the instruction.
+  // Only within the instruction.
   core::Memory memory() const { return instance_->memory(); }
   const core::ServiceRequest& request() const { return request_; }
   ServiceKind kind() const { return kindOf(request_); }
@@ -100,12 +100,12 @@ public:
   int64_t argOr(uint32_t number, int64_t otherwise) const {
     return arg(number) == nc::technol::kNotGiven ? otherwise : arg(number);
   }
-  // A number that a device has in 32 bits without a sign; what does not fit is UINT32_MAX.
+  // An argument as an unsigned 32-bit number; UINT32_MAX if it does not fit.
   uint32_t number(uint32_t at) const {
     return arg(at) < 0 || arg(at) > UINT32_MAX ? UINT32_MAX : static_cast<uint32_t>(arg(at));
   }
   double real(uint32_t at) const { return std::bit_cast<double>(arg(at)); }
-  // The program's bytes, in `room`, as many as fit.
+  // The program's bytes, copied to `room`, as many as fit.
   std::span<const uint8_t> bytes(uint32_t at, std::span<uint8_t> room) const {
     const nc::technol::ArgumentBytes from = nc::technol::bytesOfArgument(arg(at));
     if (instance_ == nullptr) return given_.first(std::min(given_.size(), room.size()));
@@ -114,7 +114,7 @@ public:
     for (uint32_t i = 0; i < count; ++i) room[i] = memory.readByte(from.space, from.first + i);
     return room.first(count);
   }
-  // Up to a terminator.
+  // The program's bytes up to a terminating 0.
   std::string_view text(uint32_t at, std::span<uint8_t> room) const {
     const std::span<const uint8_t> all = bytes(at, room);
     const auto end = std::ranges::find(all, 0);
@@ -124,7 +124,7 @@ public:
   void set(uint32_t result, int64_t value) { reply_.results[result] = value; }
   int64_t result(uint32_t number) const { return reply_.results[number]; }
   void setReal(uint32_t result, double value) { set(result, std::bit_cast<int64_t>(value)); }
-  // Room for bytes of the answer, whose number becomes the result.
+  // Makes room for bytes of the answer; their number becomes the result.
   std::span<uint8_t> makeBytes(uint32_t result, uint32_t count) {
     const std::span<uint8_t> made = room_.make(request_.ticket, count);
     set(result, static_cast<int64_t>(made.size()));
@@ -134,9 +134,9 @@ public:
     const std::span<uint8_t> made = makeBytes(result, static_cast<uint32_t>(bytes.size()));
     std::ranges::copy(bytes.first(made.size()), made.begin());
   }
-  // It is not carried out.
+  // The request is not carried out.
   void refuse() { reply_.state = RUNG_SERVICE_ERROR; }
-  // The answer comes later, by the instance's queue.
+  // The answer follows later, through the instance's queue.
   void wait() { reply_.state = RUNG_SERVICE_PENDING; }
 
 private:
@@ -146,27 +146,28 @@ private:
     reply_.resultCount = RUNG_MAX_SERVICE_ARGS;
   }
 
-  const runtime::Instance* instance_ = nullptr; // null: later
+  const runtime::Instance* instance_ = nullptr; // null: a later answer
   std::span<const uint8_t> given_;
   const core::ServiceRequest& request_;
   core::ServiceReply& reply_;
   AnswerRoom& room_;
 };
 
-// Parts of configuration keys and their values.
+// Parsing of configuration keys and their values.
 
-// Nothing where the text is not a number within these limits.
+// Nothing if the text is not a number within these limits.
 inline std::optional<uint32_t> numberBetween(std::string_view text, int64_t least, int64_t most) {
   const auto number = nc::technol::integerOf(text);
   return number && *number >= least && *number <= most ? std::optional(static_cast<uint32_t>(*number)) : std::nullopt;
 }
 
-// The number after a prefix, in any case, of the key: PlcTableDef3.
+// The number after a prefix of the key, in any case: PlcTableDef3.
 inline std::optional<uint32_t> numberAfter(std::string_view key, std::string_view prefix) {
   return text::takePrefixIgnoringCase(key, prefix) ? text::numberIn<uint32_t>(key) : std::nullopt;
 }
 
-// The text up to the character, which both go away from `text`; all of it where the character is not there.
+// Removes the text up to the character, and the character, from `text` and returns it; all of the text if the character
+// is missing.
 inline std::string_view takeUntil(std::string_view& text, char end) {
   const size_t at = std::min(text.find(end), text.size());
   const std::string_view part = text.substr(0, at);

@@ -1,4 +1,4 @@
-// What an operator should know of the devices (see device_report.h).
+// See device_report.h.
 #include "machine/io/device_report.h"
 
 #include <algorithm>
@@ -99,7 +99,7 @@ void DeviceReport::losses(std::vector<std::string>& lines) {
   }
 }
 
-// The problems of lines, each when it begins.
+// Reports problems of serial lines when they begin and when they end.
 void DeviceReport::ports(std::vector<std::string>& lines) {
   std::vector<std::string> now = tty_.problems();
   for (const std::string& problem : now)

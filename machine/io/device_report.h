@@ -1,5 +1,4 @@
-// What an operator should know of the devices, when it changes: a sentence each. Not for the scan, which never waits
-// for the caller.
+// Reports of changes in the devices for the operator, one sentence each. Service thread; the scan never waits for it.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -15,7 +14,8 @@ class DeviceReport {
 public:
   DeviceReport(Devices& devices, const com::TtyThread& tty) : devices_(devices), tty_(tty) {}
 
-  // Since the last call. What is lost, and what a drive or a unit says again, is said once a second at most.
+  // The changes since the last call. Losses, and repeated messages of a drive or unit, are reported at most once a
+  // second.
   std::vector<std::string> next();
 
 private:
@@ -35,13 +35,13 @@ private:
   template <class Message>
   struct Said {
     Message message;
-    int64_t untilNs = 0; // until then it is not said again
+    int64_t untilNs = 0; // the message is not repeated until then
   };
   using SaidOfUnits = std::array<Said<UnitMessage>, kMostUnits[0]>;
   template <class Message>
   static void say(const Message& message, Said<Message>& said, int64_t now, std::vector<std::string>& lines);
   std::array<Channel, CanController::kChannels> channels_;
-  std::array<Said<DriveMessage>, kMostDrives> saidOfDrives_; // of each the last
+  std::array<Said<DriveMessage>, kMostDrives> saidOfDrives_; // the last message of each
   std::array<SaidOfUnits, kUnitGroups> saidOfUnits_;
   std::vector<std::string> portProblems_;
   std::array<uint32_t, com::kMostPorts> portLosses_{};

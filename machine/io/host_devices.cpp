@@ -1,4 +1,4 @@
-// Devices of this machine.
+// See host_devices.h.
 #include "machine/io/host_devices.h"
 
 #include <optional>
@@ -40,8 +40,8 @@ std::string found(std::string_view setting) { return ", not '" + std::string(set
 struct HostDevices::Machine {
   Devices devices;
   AxisPins axisPins;
-  std::array<std::string, kChannels> interfaces;           // that were named
-  std::array<std::string, com::kMostPorts> devicesOfPorts; // that were named
+  std::array<std::string, kChannels> interfaces;           // explicitly configured
+  std::array<std::string, com::kMostPorts> devicesOfPorts; // explicitly configured
   std::array<bool, kChannels> adopted{};
   com::TtyThread tty;
   DeviceReport report{devices, tty};
@@ -113,7 +113,7 @@ std::string HostDevices::Machine::setEthercat(std::string_view value) {
   return value == "0" || value == "1" ? "" : "EtherCATOPViaPLC takes 0 or 1" + found(value);
 }
 
-// A file that cannot be read is left alone, and its table does not exist; the program runs.
+// An unreadable file is only a warning: its table does not exist, and the program runs.
 std::string HostDevices::Machine::ofTable(uint32_t table, std::string wrong) {
   if (table >= PlcTables::kTables || wrong.empty()) return wrong;
   warnings.push_back(std::move(wrong));
@@ -137,7 +137,7 @@ std::string HostDevices::configure(std::string_view key, std::string_view value)
          "PlcTableN, EtherCATOPViaPLC and PlcConfig";
 }
 
-// Of an axis the file says much that is not this machine's.
+// Ignores attributes of axes in the file that do not concern this machine.
 std::string HostDevices::configureBy(const std::string& path) {
   struct Own final : ConfiguredDevices {
     explicit Own(HostDevices& given) : all(given) {}
@@ -191,7 +191,7 @@ void HostDevices::adoptCan(uint32_t channel, int descriptor) {
 
 // ---- devices -------------------------------------------------------------------------------------------------------
 
-// "" where none is named.
+// "" if no interface is configured.
 std::string HostDevices::Machine::interfaceOf(uint32_t channel) const {
   if (!interfaces[channel - 1].empty()) return interfaces[channel - 1];
   const auto& physical = devices.can.settings().channels[channel - 1].physical;
@@ -322,7 +322,7 @@ void DevicesEnvironment::exchangePlaces(std::unique_ptr<nc::Places>& places) noe
 
 uint32_t DevicesEnvironment::works() const { return control_->works() | 1u << nc::kHookBeforeInput; }
 
-// MODULE_INIT may give orders to devices already.
+// MODULE_INIT may already make requests to devices.
 void DevicesEnvironment::powerOn(runtime::Instance& instance, nc::PowerOn kind) {
   control_->prepare(instance, kind);
   for (com::Port& port : devices_.ports) port.powerOn();
@@ -368,7 +368,7 @@ void DevicesEnvironment::tickMaster(const core::Memory& memory) {
   places().states.write(memory, stateBits_);
 }
 
-// What MODULE_HALT still orders counts, but no drive stays enabled (inventory of the services, 1.5).
+// Commands of MODULE_HALT are still executed, but no drive stays enabled (inventory of the services, 1.5).
 void DevicesEnvironment::onFault(runtime::Instance& instance) {
   control_->onFault(instance);
   devices_.can.take(instance.memory(), places().can);
@@ -378,7 +378,7 @@ void DevicesEnvironment::onFault(runtime::Instance& instance) {
 
 // ---- requests ------------------------------------------------------------------------------------------------------
 
-// Without such a device the control refuses.
+// The control refuses requests to devices that do not exist.
 bool DevicesEnvironment::respond(runtime::Instance& instance, const core::ServiceRequest& request,
                                  core::ServiceReply& reply) {
   return answer(instance, request, reply) || control_->respond(instance, request, reply);

@@ -1,10 +1,11 @@
 // The devices of this machine for a TECHNOL program of a host: serial ports, CAN interfaces, PLC tables in their files,
-// shared areas, axes at the pins of a map; an EtherCAT master where the host gives one (inventory of the services, 17).
-// What is not named does not exist: its instructions give the error of their section, its cells stay what they are.
+// shared areas, axes at the pins of a map, and the host's EtherCAT master, if it has one (inventory of the services,
+// 17). Devices that are not configured do not exist: their instructions return the error of their section, their cells
+// do not change.
 //
-// Order of things: settings; `instance`, once; `start`; the program runs, with `step` in its thread; the program ends;
-// `end`. In the scan nothing waits, allocates or locks; with a file of shared areas, SA_READ and SA_WRITE each ask the
-// system once how long that is.
+// Order of calls: settings; `instance`, once; `start`; the program runs, with `step` in its thread; the program ends;
+// `end`. Nothing in the scan waits, allocates or locks; with a file of shared areas, SA_READ and SA_WRITE each ask the
+// system once for its length.
 #pragma once
 #include <array>
 #include <atomic>
@@ -31,59 +32,61 @@ namespace rung::io {
 class HostDevices {
 public:
   HostDevices();
-  ~HostDevices(); // after the program
+  ~HostDevices(); // must run after the program is destroyed
   HostDevices(const HostDevices&) = delete;
   HostDevices& operator=(const HostDevices&) = delete;
 
-  // The program's dialect asks devices.
+  // Whether programs of the dialect make requests to devices.
   static bool isFor(const Image& image);
 
-  // ---- before `instance`; "" or what is wrong
+  // ---- before `instance`; the functions return "", or the error
 
-  // "2=can0": the CAN channel 1 or 2 is this interface. It is active then.
+  // "2=can0": connects the CAN channel 1 or 2 to this interface and makes it active.
   std::string setCan(std::string_view setting);
-  // "1=/dev/ttyUSB0": the serial port 0 to 15 is this device. It is active then.
+  // "1=/dev/ttyUSB0": connects the serial port 0 to 15 to this device and makes it active.
   std::string setCom(std::string_view setting);
-  // The shared areas lie in this file, which other programs map (machine/io/shared).
+  // Puts the shared areas in this file, which other programs map (machine/io/shared).
   std::string setSharedFile(const std::string& path);
-  // All that the table [devices] of a mapping file says; mistakes are further errors, with their places.
+  // Sets everything in the table [devices] of a mapping file; errors are appended with their positions.
   void set(const host::File& map, std::vector<std::string>& errors);
-  // The pins of the axes that it names; mistakes as for `set`.
+  // Adds the pins of the axes in that table; errors as for `set`.
   void addAxisPins(host::File& map, std::vector<std::string>& errors);
-  // A key of the configuration that belongs to a device: COM[n], CAN[n], drive.n.type, axis.n, PlcTableDefN, PlcTableN,
-  // EtherCATOPViaPLC; PlcConfig, the control's own file of the channel, whose devices they are. Files are named from
-  // the working folder.
+  // Sets a configuration key of a device: COM[n], CAN[n], drive.n.type, axis.n, PlcTableDefN, PlcTableN,
+  // EtherCATOPViaPLC; or PlcConfig, the control's own channel file, whose devices are configured. Paths are relative to
+  // the working directory.
   std::string configure(std::string_view key, std::string_view value);
-  // A master of the host, which outlives this.
+  // The host's master, which must outlive this object.
   void useMaster(ethercat::Master& master);
-  // A descriptor in the place of an interface, which becomes this object's: it takes and gives a `can_frame` at a time.
+  // Connects the channel to a descriptor in place of an interface: it reads and writes one `can_frame` at a time; this
+  // object closes it.
   void adoptCan(uint32_t channel, int descriptor);
 
   // ---- the program
 
-  // With its devices around it. Throws std::runtime_error: it is of another dialect, or a device cannot be had at all;
-  // rung::Error.
+  // Creates the program with its devices. Throws std::runtime_error if it is of another dialect, or a device cannot be
+  // served at all; rung::Error.
   Instance instance(const Image& image, const rung_instance_options& options);
-  // What is configured and has no device here, a sentence each; after `instance`.
+  // Configured devices that this machine does not have, one sentence each; to be called after `instance`.
   std::vector<std::string> warnings() const;
-  // As many cells as the map has pins, in their order; cells and access outlive this. Before the first step.
+  // `cells` has one cell per pin of the map, in the order of the pins; cells and access must outlive this object. To be
+  // called before the first step.
   void connectAxes(const host::PinCell* cells, const host::PinAccess& access);
-  // The threads that serve the devices.
+  // Starts the threads that serve the devices.
   void start();
-  // Outputs of CAN units are 0, tables are on disk. After the program's power-off.
+  // Sets the outputs of CAN units to 0 and writes tables to disk. To be called after the program's power-off.
   void end();
 
-  // The thread of the program, before each of its steps, also where nothing of it is due: the clock has moved on. Not
+  // Scan thread, before each step of the program, even if no slice is due: advances the clock by `ns`. Not to be called
   // while another thread switches the program on.
   void step(int64_t ns) noexcept;
-  // No axis moves.
+  // Whether no axis moves.
   bool axesAtRest() const noexcept;
-  // In the place of `step` once the program has ended: axes that move brake, then no drive is enabled any more, and it
-  // is true.
+  // Scan thread, in place of `step` once the program has ended: brakes moving axes, then disables all drives and
+  // returns true.
   bool rest(int64_t ns) noexcept;
 
-  // What an operator should know of devices since the last call: gone, back, what was lost, what is refused. Any one
-  // thread but the program's.
+  // Reports for the operator since the last call: devices that are gone or back, losses, refusals. Any one thread
+  // except the scan thread.
   std::vector<std::string> report();
 
 private:
@@ -93,9 +96,10 @@ private:
   std::unique_ptr<Machine> machine_;
 };
 
-// The real devices of a machine around a program: who answers its requests, and when cells are read and written.
+// The real devices of a machine around a program: answers its requests, and reads and writes its cells at the right
+// moments.
 
-// All devices; they outlive the program.
+// All devices; they must outlive the program.
 struct Devices {
   SharedAreas areas;
   std::array<com::Port, com::kMostPorts> ports;
@@ -109,7 +113,7 @@ struct Devices {
 
 class DevicesEnvironment final : public api::Environment {
 public:
-  // They have the devices of a program of this dialect, whose first one is `program`.
+  // The devices for a program of this dialect; `program` is the first program.
   DevicesEnvironment(Devices& devices, const rung_program& program);
 
   nc::Control& control() override { return *control_; }
@@ -127,16 +131,16 @@ public:
 private:
   struct Places;
   bool answer(runtime::Instance& instance, const core::ServiceRequest& request, core::ServiceReply& reply);
-  com::Port* portOf(const DeviceCall& call); // null: there is none of this number
+  com::Port* portOf(const DeviceCall& call); // null: no port with this number
   bool askTable(DeviceCall& call);
-  bool noteArea(const DeviceCall& call); // that has been answered
+  bool noteArea(const DeviceCall& call); // which has been answered
   void beforeInput(runtime::Instance& instance);
   void tickMaster(const core::Memory& memory);
   const Places& places() const;
 
   Devices& devices_;
   std::unique_ptr<nc::Control> control_;
-  std::unique_ptr<nc::Places> places_; // of the program that runs
+  std::unique_ptr<nc::Places> places_; // of the running program
   AnswerBytes bytes_;
   EthercatCalls ethercat_;
   ethercat::StateRequests states_;

@@ -1,4 +1,4 @@
-// See collect.h. The front end itself finds out which files there are: what it opens is sent.
+// See collect.h. The front end determines the files: every file that it opens is collected.
 #include "machine/rung-compile/collect.h"
 
 #include <algorithm>
@@ -22,7 +22,7 @@ std::string textOf(const Diagnostics& diagnostics, const SourceManager& sources,
   return renderText(diagnostics, sources, {.color = color}) + closingLine(diagnostics);
 }
 
-// One reading; `result` has what came of it.
+// Collects one set of sources; `result_` is the result.
 class Collector {
 public:
   explicit Collector(bool color) : color_(color) {}
@@ -55,7 +55,7 @@ private:
     return fail(textOf(diagnostics, texts, color_));
   }
 
-  // False: there is a project that cannot be used.
+  // Returns false if there is a project that cannot be used.
   bool findProject(const std::vector<std::string>& names) {
     const fs::path first = names.front();
     std::error_code error;
@@ -80,14 +80,14 @@ private:
     const auto encoding = sources.config.find(std::string(nc::kEncodingKey.key));
     if (encoding == sources.config.end()) return;
     sources_.setEncoding(encoding->second);
-    sources.config.erase(encoding); // the texts that are sent are UTF-8
+    sources.config.erase(encoding); // collected texts are UTF-8
   }
 
-  // Of a dialect that is not known the compiler says it.
+  // Reads all files. An unknown dialect is reported by the compiler.
   bool compile(const compile::Sources& sources, frontend::CompileOptions& options) {
     std::vector<FileId> files;
     for (const std::string& name : sources.files) {
-      std::error_code error; // of a file without a size, such as a pipe
+      std::error_code error; // for files without a size, such as pipes
       if (const uintmax_t bytes = fs::file_size(name, error); !error && bytes > compile::kMostBytes)
         return fail(tooLarge(bytes));
       const Result<FileId> file = sources_.addFile(name);

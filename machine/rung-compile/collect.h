@@ -1,4 +1,4 @@
-// Reads the sources of a program, and what they include, with the rights of the process that runs it.
+// Reads the sources of a program, including included files, with the rights of the running process.
 #pragma once
 #include <optional>
 #include <string>
@@ -9,13 +9,13 @@
 namespace rung::rung_compile {
 
 struct Collected {
-  std::optional<compile::Sources> sources; // nothing: `report` says why
+  std::optional<compile::Sources> sources; // nothing: `report` has the reason
   std::string report;                      // errors as rungc prints them
-  std::string diagnostics;                 // the same as JSON; "" where nothing is wrong in a source
-  bool unreadable = false;                 // a file that is named cannot be read
+  std::string diagnostics;                 // the same as JSON; "" if no source has an error
+  bool unreadable = false;                 // a named file cannot be read
 };
 
-// `names`: files in their order, or one folder of a project or project file. Files that all belong to a project are
+// `names`: files in their order, or one project folder or project file. Files that all belong to one project are
 // compiled as that project, as by rungc.
 Collected collect(const std::vector<std::string>& names, bool color = false);
 

@@ -1,4 +1,4 @@
-// See compile_forces.h. The file comes from a program that the host runs; it is believed nothing all the same.
+// See compile_forces.h. The file comes from a program that the host runs, but is not trusted either.
 #include "machine/rung-compile/compile_forces.h"
 
 #include <algorithm>

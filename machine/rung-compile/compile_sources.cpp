@@ -25,7 +25,7 @@ compiler::CompileRequest requestOf(const compile::Sources& sources) {
   return request;
 }
 
-// As `rungc build`.
+// The same checks as in `rungc build`.
 void checkNames(const compiler::Compiled& compiled, const SourceManager& sources, Diagnostics& diagnostics) {
   const std::vector<std::pair<std::string, std::string>> pairs(compiled.options.config.begin(),
                                                                compiled.options.config.end());

@@ -1,4 +1,4 @@
-// From packed sources to a program file, in memory.
+// Compiles packed sources to a program file in memory.
 #pragma once
 #include <string_view>
 

@@ -1,5 +1,5 @@
-// rung-compile: compiles sources, or a program with forced cells, for a host that starts it, with no rights of the
-// host's (docs/security.md); or reads sources for it, with the rights of their user.
+// rung-compile: compiles sources, or a program with forced cells, for the host that starts it, without the host's
+// rights (docs/security.md); or reads sources for it, with the rights of their user.
 #include <fcntl.h>
 #include <sys/mman.h>
 #include <unistd.h>
@@ -35,14 +35,13 @@ int answer(std::string_view verdict, std::string_view text) {
   return runtime::writeAll(compile::kAnswerFile, line) && runtime::writeAll(compile::kAnswerFile, text) ? 0 : 1;
 }
 
-// The linker's.
+// Replaces standard output by a memory file for the linker.
 bool makeOutput() {
   const int file = memfd_create("rung-linked", MFD_CLOEXEC);
   return file >= 0 && dup2(file, STDOUT_FILENO) >= 0 && close(file) == 0;
 }
 
-// Whatever the compiler opens and loads, it opens and loads in its first compilation: before it reads anything that a
-// client sent.
+// A first compilation opens and loads everything that the compiler needs, before any data of a client is read.
 std::string warmUp() {
   if (!makeOutput()) return std::string("cannot make a memory file: ") + std::strerror(errno);
   const std::string name = "warm-up.pmc";
@@ -52,7 +51,7 @@ std::string warmUp() {
   return outcome.verdict == compile::kVerdictCompiled ? "" : "the compiler does not work: " + outcome.report;
 }
 
-// False: there is more than may be.
+// Returns false if the input is too long.
 bool readInput(std::string& bytes, size_t most) {
   constexpr size_t kPiece = size_t{1} << 20;
   size_t used = 0;
@@ -67,16 +66,16 @@ bool readInput(std::string& bytes, size_t most) {
   return used <= most;
 }
 
-// "" or why not. The file is sealed: no process can change it from then on.
+// Returns "", or an error. The file is sealed: no process can change it from then on.
 std::string writeImage(std::string_view bytes) {
   constexpr int kSeals = F_SEAL_WRITE | F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_SEAL;
   if (runtime::writeAll(compile::kImageFile, bytes) && fcntl(compile::kImageFile, F_ADD_SEALS, kSeals) == 0) return "";
   return std::string("cannot write the program: ") + std::strerror(errno);
 }
 
-struct Work { // of the process
+struct Work { // what the process is started for
   const char* input;
-  size_t most; // bytes of it
+  size_t most; // input bytes
   rung_compile::Outcome (*compile)(std::string_view bytes);
 };
 constexpr Work kSources{"sources", compile::kMostBytes, &rung_compile::compileSources};
@@ -115,8 +114,8 @@ bool isOpen(int file) { return fcntl(file, F_GETFD) >= 0; }
 
 } // namespace
 
-// Without words: compile::packed sources come by standard input. --forces: compile::packed forces. --collect --user
-// NUMBER -- FILE…: it reads files.
+// Without arguments: compile::packed sources on standard input. --forces: compile::packed forces. --collect --user
+// NUMBER -- FILE…: reads files.
 int main(int argc, char** argv) {
   const std::vector<std::string> words(argv + 1, argv + argc);
   const bool hasFiles = fcntl(compile::kImageFile, F_GET_SEALS) >= 0 && isOpen(compile::kAnswerFile);

@@ -22,7 +22,7 @@
 namespace rung::rung_compile {
 namespace {
 
-constexpr uid_t kNobody = 65534; // and the group of that user
+constexpr uid_t kNobody = 65534; // also the ID of the group
 
 std::string because(const char* what) { return std::string(what) + ": " + std::strerror(errno); }
 
@@ -34,9 +34,9 @@ struct Ids {
   bool hasRoot() const { return real == 0 || effective == 0 || saved == 0; }
 };
 
-// Root may be the real or the saved user alone.
+// Root may be only the real or the saved user.
 void takeRoot() {
-  if (geteuid() != 0 && seteuid(0) != 0) errno = 0; // what needs it fails
+  if (geteuid() != 0 && seteuid(0) != 0) errno = 0; // calls that need root fail later
 }
 
 bool leaveRoot() {
@@ -65,7 +65,7 @@ bool setLimits(const Limits& limits) {
          (limits.memory == 0 || limit(RLIMIT_AS, limits.memory, limits.memory));
 }
 
-// Below all that a host does.
+// The lowest priority, below all threads of the host.
 void lowerPriority() {
   const sched_param none{};
   sched_setscheduler(0, SCHED_BATCH, &none);
@@ -74,7 +74,7 @@ void lowerPriority() {
 
 // ---- system calls --------------------------------------------------------------------------------------------------
 
-// Which file /proc/self/fd/N means; -1: another path.
+// The descriptor N in /proc/self/fd/N; -1: another path.
 int openFileOf(const char* path) {
   constexpr std::string_view kFolder = "/proc/self/fd/";
   if (std::strncmp(path, kFolder.data(), kFolder.size()) != 0) return -1;
@@ -92,12 +92,12 @@ long openInstead(const char* path, int flags) {
   return resultOf(syscall(SYS_fcntl, file, F_DUPFD_CLOEXEC, 0));
 }
 
-// fstat() of the C library is this call with no path.
+// fstat() of the C library makes this call with an empty path.
 long statInstead(long file, const char* path, void* to) {
   return path != nullptr && *path != '\0' ? -EACCES : resultOf(syscall(SYS_fstat, file, to));
 }
 
-// What the kernel has refused, done otherwise or not at all. Only what a signal handler may call.
+// Replaces or refuses a system call that the kernel has intercepted. Uses only async-signal-safe functions.
 // NOLINTBEGIN(performance-no-int-to-ptr): arguments of calls are words
 long doInstead(int call, long a, long b, long c) {
   switch (call) {
@@ -126,7 +126,7 @@ void onRefused(int, siginfo_t* info, void* context) {
   errno = before;
 }
 
-// What a compilation does with memory, time and open files.
+// System calls for memory, time and open files, which a compilation needs.
 constexpr int kAllowed[] = {
     SCMP_SYS(read),
     SCMP_SYS(readv),

@@ -1,6 +1,6 @@
-// Pins and parameters in both of HAL's interfaces. That of LinuxCNC 2.9 gives pointers to variables as wide as their
-// types; that which LinuxCNC's master has had since July 2026 gives references to cells of 64 bits, of which a writer
-// fills all bits. Both redirect what a pin's cell holds, so cells lie in HAL's memory.
+// Pins and parameters in both versions of HAL's interface. That of LinuxCNC 2.9 returns pointers to variables of their
+// types' width; that of LinuxCNC's master since July 2026 returns references to cells of 64 bits, all of which a writer
+// sets. Both redirect the contents of a pin's cell, so cells lie in HAL's memory.
 #pragma once
 #include <hal.h>
 
@@ -9,7 +9,7 @@
 
 #include "machine/host/pins.h"
 
-// The version is announced; until it has come, this is a name that only the headers with references define.
+// A version macro is announced; until it exists, HAL_BOOL is a name that only the headers with references define.
 #if defined(HAL_API_VERSION) || defined(HAL_BOOL)
 #define RUNG_HAL_REFERENCES 1
 #else
@@ -31,7 +31,7 @@ Reference* referenceIn(host::PinCell& cell) {
   return reinterpret_cast<Reference*>(&cell.any);
 }
 
-// 0, or HAL's error, as all that makes something here.
+// Returns 0 or HAL's error, like all functions here that create something.
 inline int newPin(const std::string& name, PinType type, hal_pdir_t direction, host::PinCell& cell, int component) {
   const char* const text = name.c_str();
   switch (type) {
@@ -43,7 +43,7 @@ inline int newPin(const std::string& name, PinType type, hal_pdir_t direction, h
   return -EINVAL;
 }
 
-// One that a person writes.
+// Creates a parameter that users can write.
 inline int newParameter(const std::string& name, PinType type, host::PinCell& cell, int component) {
   const char* const text = name.c_str();
   switch (type) {
@@ -55,7 +55,7 @@ inline int newParameter(const std::string& name, PinType type, host::PinCell& ce
   return -EINVAL;
 }
 
-// Of integers the lower half: components of the older interface leave the upper one as it was.
+// Reads the lower half of integers: components of the older interface leave the upper one unchanged.
 inline host::Value read(PinType type, const host::PinCell& cell) noexcept {
   switch (type) {
   case PinType::Bit: return {.bit = hal_get_bool(static_cast<hal_bool_t>(cell.any))};
@@ -80,7 +80,7 @@ inline constexpr host::PinAccess kAccess{read, write};
 #else
 
 inline int newPin(const std::string& name, PinType type, hal_pin_dir_t direction, host::PinCell& cell, int component) {
-  constexpr hal_type_t kTypes[] = {HAL_BIT, HAL_S32, HAL_U32, HAL_FLOAT}; // by PinType
+  constexpr hal_type_t kTypes[] = {HAL_BIT, HAL_S32, HAL_U32, HAL_FLOAT}; // indexed by PinType
   return hal_pin_new(name.c_str(), kTypes[static_cast<size_t>(type)], direction, &cell.any, component);
 }
 

@@ -1,5 +1,5 @@
-// The LinuxCNC real-time component: loads compiled PLC programs and their mapping files, makes the HAL pins, and scans
-// in the threads that the functions are added to. docs/linuxcnc.md is the user's description.
+// The LinuxCNC real-time component: loads compiled PLC programs and their mapping files, creates the HAL pins, and
+// scans in the threads to which its functions are added. User documentation: docs/linuxcnc.md.
 #include <rtapi.h>
 #include <rtapi_app.h>
 
@@ -61,37 +61,37 @@ namespace {
 using namespace rung;
 using host::OwnPin;
 
-constexpr const char* kModule = "rung_hal"; // LinuxCNC wants the file's name here
+constexpr const char* kModule = "rung_hal"; // LinuxCNC requires the name of the file here
 constexpr const char* kDefaultPrefix = "rung";
 
 constexpr size_t kOwnPinCount = std::size(host::kOwnPins);
 
 enum Function : size_t { kScan, kFast };
 
-// One program with its pins. It does not move: HAL calls its functions with its address.
+// One program with its pins. Must not move: HAL calls its functions with its address.
 struct PlcInstance {
   std::string prefix;
   std::optional<Image> image;
-  std::unique_ptr<io::HostDevices> devices; // of a TECHNOL program; it outlives the host
+  std::unique_ptr<io::HostDevices> devices; // for a TECHNOL program; must outlive the host
   std::unique_ptr<host::PlcHost> host;
-  host::PinCell* ownCells = nullptr; // in HAL's memory, by OwnPin
+  host::PinCell* ownCells = nullptr; // in HAL's memory, indexed by OwnPin
   host::PinCell* cells = nullptr;    // in HAL's memory
-  bool hasPins = false;              // all of them
-  std::atomic<uint32_t> inside{0};   // calls of its functions under way
-  std::atomic<uint32_t> calls{0};    // that are over
-  // The threads that HAL calls its functions in, 0: it has not yet. A program is one thread's: where they differ, it is
-  // apart for good, and does not run.
+  bool hasPins = false;              // all pins have been created
+  std::atomic<uint32_t> inside{0};   // calls of its functions in progress
+  std::atomic<uint32_t> calls{0};    // completed calls
+  // The threads in which HAL calls its functions; 0: no call yet. A program must run in one thread: if the threads
+  // differ, they conflict for good, and the program does not run.
   std::array<std::atomic<pthread_t>, 2> callers{};
   std::atomic<bool> conflict{false};
   bool conflictReported = false;
-  bool fastCalled = false;  // since the scan before
-  bool poweringOff = false; // since pin power-off has come on
+  bool fastCalled = false;  // since the previous scan
+  bool poweringOff = false; // since pin power-off was switched on
   std::atomic<int64_t> periodNs{0};
-  const std::atomic<bool>* ending = nullptr; // of the component
+  const std::atomic<bool>* ending = nullptr; // set by the component
   host::PinCell& own(OwnPin pin) const { return ownCells[static_cast<size_t>(pin)]; }
   std::unique_ptr<control::Log> log;
   std::unique_ptr<control::Controller> controller;
-  std::unique_ptr<control::Server> server; // for rungctl; null where there is no place for its socket
+  std::unique_ptr<control::Server> server; // for rungctl; null if it has no socket
 };
 
 struct Component {
@@ -100,7 +100,7 @@ struct Component {
   std::atomic<bool> ending{false};
 };
 
-Component* component = nullptr; // RTAPI gives rtapi_app_exit no argument
+Component* component = nullptr; // RTAPI passes no argument to rtapi_app_exit
 int componentId = -1;
 
 template <class... T>
@@ -108,7 +108,7 @@ void complain(const char* format, T... values) {
   rtapi_print_msg(RTAPI_MSG_ERR, format, values...);
 }
 
-// The arguments of the component, by instance.
+// The arguments of the component for one instance.
 struct Request {
   const char* name = nullptr;
   const char* program = nullptr;
@@ -121,12 +121,12 @@ size_t given(char* const (&list)[kMostInstances]) {
   return static_cast<size_t>(std::find(std::begin(list), std::end(list), nullptr) - std::begin(list));
 }
 
-// One for each instance, or one for all.
+// Lists have one entry for each instance, or one for all.
 const char* argument(char* const (&list)[kMostInstances], size_t instance) {
   return given(list) == 1 ? list[0] : list[instance];
 }
 
-// False: they do not fit together, which is reported.
+// Returns false after reporting that the lists do not fit together.
 bool checkArguments(size_t count) {
   const auto isEach = [&](char* const(&list)[kMostInstances]) { return given(list) == count; };
   const auto fits = [&](char* const(&list)[kMostInstances]) { return given(list) == 1 || isEach(list); };
@@ -145,7 +145,7 @@ bool checkArguments(size_t count) {
   return false;
 }
 
-// Empty where they do not fit together.
+// Empty if the arguments do not fit together.
 std::vector<Request> requests() {
   const size_t count = std::max<size_t>(1, given(names));
   if (!checkArguments(count)) return {};
@@ -157,7 +157,7 @@ std::vector<Request> requests() {
   return list;
 }
 
-// RTAPI's messages are short.
+// Reports each line separately, because RTAPI's messages are short.
 void complainLines(const std::string& text) {
   for (size_t at = 0; at < text.size();) {
     const size_t end = std::min(text.find('\n', at), text.size());
@@ -174,8 +174,8 @@ Image imageOf(const Request& request) {
   return image;
 }
 
-// A program that asks devices has those of its map around it, and pins for its axes and analogue outputs; none: the
-// control alone.
+// For a program with requests to devices: the devices of its map, and pins for its axes and analogue outputs. Empty for
+// other programs, which have only their control.
 host::PlcHost::NewInstance withDevices(PlcInstance& c, const Image& image, host::File& map,
                                        std::vector<std::string>& errors) {
   if (!io::HostDevices::isFor(image)) return {};
@@ -191,7 +191,7 @@ std::string conflictText(const PlcInstance& c) {
          "add both to one thread (addf) and restart";
 }
 
-// False: what is wrong has been reported.
+// Returns false after reporting the errors.
 bool loadProgram(PlcInstance& c, const Request& request) {
   const Image* image = nullptr;
   try {
@@ -205,7 +205,7 @@ bool loadProgram(PlcInstance& c, const Request& request) {
   host::File mapping = host::loadMap(request.map, errors);
   host::refuseConnections(mapping, "LinuxCNC, where HAL connects the pins", errors);
   const host::PlcHost::NewInstance newInstance = withDevices(c, *image, mapping, errors);
-  // Mistakes of the text and of names at once; a host is only made for a faultless map.
+  // Errors of the text and of names are reported together; a host is only made for a map without errors.
   try {
     if (!mapping.paths.empty())
       c.host = host::PlcHost::make(
@@ -231,7 +231,7 @@ bool loadProgram(PlcInstance& c, const Request& request) {
 bool loadPrograms(Component& c) {
   const std::vector<Request> list = requests();
   bool ok = !list.empty();
-  for (const Request& request : list) { // all their mistakes at once
+  for (const Request& request : list) { // reports the errors of all programs
     auto made = std::make_unique<PlcInstance>();
     made->prefix = request.name;
     made->ending = &c.ending;
@@ -257,10 +257,10 @@ bool makeParameter(const PlcInstance& c, const char* parameter, host::PinType ty
   return isMade(hal::newParameter(full, type, cell, componentId), "parameter", full);
 }
 
-// A pin or a parameter of the map, or of the component itself.
+// Creates a pin or a parameter of the map, or of the component itself.
 template <class Pin>
 bool makeMapped(const PlcInstance& c, const Pin& pin, host::PinCell& cell) {
-  constexpr hal_pin_dir_t kDirections[] = {HAL_IN, HAL_OUT, HAL_IO}; // by host::Direction
+  constexpr hal_pin_dir_t kDirections[] = {HAL_IN, HAL_OUT, HAL_IO}; // indexed by host::Direction
   const std::string name(pin.name);
   if (pin.direction == host::Direction::Parameter) return makeParameter(c, name.c_str(), pin.type, cell);
   return makePin(c, name.c_str(), pin.type, kDirections[static_cast<size_t>(pin.direction)], cell);
@@ -287,7 +287,7 @@ bool makePins(PlcInstance& c) {
   return true;
 }
 
-// The call of the scan is given the time since that of the fast task, where HAL has both.
+// If HAL has both functions, the period of a scan counts from the call of the fast task.
 host::StepResult runFunction(PlcInstance& c, Function function, long periodNs) {
   const bool reset = hal::bit(c.own(OwnPin::Reset));
   const bool hasElapsed = c.fastCalled;
@@ -296,7 +296,7 @@ host::StepResult runFunction(PlcInstance& c, Function function, long periodNs) {
   return c.host->step(hasElapsed ? 0 : periodNs, reset);
 }
 
-// Axes are at rest before their program is restarted, which takes a while.
+// Axes must come to rest before their program is restarted, which takes a while.
 void stepDevices(PlcInstance& c, long periodNs) {
   if (c.devices == nullptr || c.host->restarting()) return;
   c.devices->step(periodNs);
@@ -306,23 +306,23 @@ void stepDevices(PlcInstance& c, long periodNs) {
 void runStep(PlcInstance& c, Function function, long periodNs) {
   constexpr int64_t kNsInUs = 1000;
   if (function == kScan) stepDevices(c, periodNs);
-  // While it is restarted, the host belongs to another thread.
+  // During a restart the host belongs to the service thread.
   if (!c.host->restarting()) c.host->setTimeLimit(int64_t{hal::u32(c.own(OwnPin::MaxTime))} * kNsInUs);
   const host::StepResult result = runFunction(c, function, periodNs);
   const bool runs = c.host->running();
-  hal::setU32(c.own(OwnPin::FaultLine), c.host->faultLine()); // before `fault`, for which others wait
+  hal::setU32(c.own(OwnPin::FaultLine), c.host->faultLine()); // set before `fault`, for which others wait
   hal::setBit(c.own(OwnPin::Fault), !runs);
   hal::setBit(c.own(OwnPin::Serving), runs && c.host->live().served.load(std::memory_order_acquire));
   hal::setBit(c.own(OwnPin::FunctionsBusy), runs && c.host->functions().busy());
   hal::setBit(c.own(OwnPin::FunctionsTimeout), runs && c.host->functions().late());
   if (runs) hal::setU32(c.own(OwnPin::FunctionsLost), c.host->functions().lost());
-  if (result != host::StepResult::Ran) return; // after a fault the instance is the service's
+  if (result != host::StepResult::Ran) return; // after a fault the instance belongs to the service thread
   const rung_state state = c.host->state();
   hal::setU32(c.own(OwnPin::Scans), static_cast<uint32_t>(state.scans));
   hal::setU32(c.own(OwnPin::Missed), static_cast<uint32_t>(state.missed));
 }
 
-// The program has had its regular end: nothing of it runs any more, and its axes come to rest.
+// The program has powered off regularly: it no longer runs, and its axes come to rest.
 bool isPoweredOff(PlcInstance& c, Function function, long periodNs) {
   c.poweringOff = c.poweringOff || hal::bit(c.own(OwnPin::PowerOff));
   if (!c.poweringOff || !c.host->powerOffDone()) return false;
@@ -354,7 +354,7 @@ void call(PlcInstance& c, Function function, long periodNs) {
   if (!c.ending->load()) {
     if (threadsConflict(c, function)) {
       if (function == kScan)
-        rejectSecondThread(c); // again and again: the other thread may have been about to end its call
+        rejectSecondThread(c); // in every call: the call of the other thread may have been about to end
     } else if (!isPoweredOff(c, function, periodNs)) {
       runStep(c, function, periodNs);
     }
@@ -377,7 +377,7 @@ void reportDevices(PlcInstance& c) {
   for (const std::string& line : c.devices->report()) (void)c.log->line(line);
 }
 
-// The program runs without a socket, too.
+// Opens the socket; the program also runs without one.
 void listen(PlcInstance& c) {
   try {
     c.server = std::make_unique<control::Server>(c.prefix, hal::UserRights::user(), *c.controller);
@@ -386,7 +386,7 @@ void listen(PlcInstance& c) {
   }
 }
 
-// No exception may leave the module: it would end the whole CNC.
+// Exceptions must not leave the module: they would end the whole CNC.
 template <class Action>
 int guarded(Action action) noexcept {
   try {
@@ -399,7 +399,7 @@ int guarded(Action action) noexcept {
   return -ENOMEM;
 }
 
-// Begins the thread that serves all instances.
+// Starts the thread that serves all instances.
 void beginService(Component& c) {
   control::ServiceLoop loop([](const char* problem) { complain("%s: %s\n", kModule, problem); });
   for (const auto& instance : c.instances)
@@ -425,7 +425,7 @@ int exportFunctions(PlcInstance& c) {
 }
 
 int start() {
-  const hal::UserRights rights; // of the threads that are begun here, too
+  const hal::UserRights rights; // also for the threads that are started here
   component = new Component;
   Component& c = *component;
   if (!loadPrograms(c)) return -EINVAL;
@@ -446,8 +446,8 @@ void waitForScans(const Component& c) {
     while (instance->inside.load() != 0) std::this_thread::sleep_for(kLook);
 }
 
-// HAL takes a function out of its thread without waiting for it: from here on it does nothing, and two periods later no
-// thread is about to call it.
+// HAL removes a function from its thread without waiting for it: from now on the functions do nothing, and two periods
+// later no thread is about to call them.
 void endScans(Component& c) {
   c.ending.store(true);
   waitForScans(c);
@@ -455,18 +455,18 @@ void endScans(Component& c) {
 }
 
 void closeProgram(PlcInstance& c) {
-  if (!c.controller) return; // it was not loaded
-  // A fault of the last moment.
+  if (!c.controller) return; // not loaded
+  // Reports a fault of the last steps.
   guarded([&] { return c.controller->serveProgram(c.server.get()), 0; });
   const std::string error = c.host->close();
   if (c.devices != nullptr) c.devices->end();
   reportDevices(c);
-  guarded([&] { return c.controller->serveProgram(nullptr), 0; }); // what it has said at last
+  guarded([&] { return c.controller->serveProgram(nullptr), 0; }); // the last messages of the program
   if (!error.empty()) complain("%s: %s\n", kModule, error.c_str());
 }
 
-// HAL's thread notes down a function's time after the call, and crashes where the function has been taken out by then.
-// It is past that when it calls again; and then it is far from the next call for a while. Threads may have stopped.
+// HAL's thread records the run time of a function after each call, and crashes if the function has been removed by
+// then. A new call shows that this is over; the following call is then some time away. Threads may have stopped.
 void waitForCall(const PlcInstance& c) {
   constexpr std::chrono::microseconds kLook(20);
   constexpr int64_t kMostPeriods = 20;
@@ -475,14 +475,14 @@ void waitForCall(const PlcInstance& c) {
   while (c.calls.load() == before && std::chrono::steady_clock::now() < end) std::this_thread::sleep_for(kLook);
 }
 
-// The thread that calls most often at last: the others are far from their calls for longer.
+// Waits for the thread with the shortest period last, because the other threads have more time until their next calls.
 void waitBetweenCalls(const Component& c) {
   std::vector<const PlcInstance*> called;
   for (const auto& instance : c.instances)
     if (instance->periodNs.load() != 0) called.push_back(instance.get());
   std::ranges::sort(called, std::greater(), [](const PlcInstance* instance) { return instance->periodNs.load(); });
   for (const PlcInstance* instance : called) waitForCall(*instance);
-  constexpr int64_t kPart = 8; // of a period: the call has returned by then
+  constexpr int64_t kPart = 8; // of a period, after which the call has returned
   if (!called.empty()) std::this_thread::sleep_for(std::chrono::nanoseconds(called.back()->periodNs.load() / kPart));
 }
 
@@ -510,9 +510,9 @@ void end() {
 } // namespace
 
 int rtapi_app_main() {
-  std::setvbuf(stdout, nullptr, _IOLBF, 0); // a line of the log is in its file at once, however LinuxCNC ends
+  std::setvbuf(stdout, nullptr, _IOLBF, 0); // writes each line of the log to its file at once, however LinuxCNC ends
   const int id = hal_init(kModule);
-  if (id < 0) return id; // where one is loaded already, it continues
+  if (id < 0) return id; // a component that is already loaded continues
   componentId = id;
   const int result = guarded(start);
   if (result != 0) guarded([] { return end(), 0; });

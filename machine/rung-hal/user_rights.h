@@ -1,12 +1,13 @@
-// The rights with which files are opened: LinuxCNC's real-time process has root's, whichever user has started it.
+// The rights with which files are opened: LinuxCNC's real-time process has root's rights, whichever user has started
+// it.
 #pragma once
 #include <sys/fsuid.h>
 #include <unistd.h>
 
 namespace rung::hal {
 
-// While it exists, this thread, and each that it starts meanwhile, opens files as the user who has started the process.
-// Where that is root himself, nothing changes.
+// While it exists, this thread, and each thread that it starts meanwhile, opens files as the user who has started the
+// process. Changes nothing if that user is root.
 class UserRights {
 public:
   UserRights() noexcept {
@@ -17,7 +18,7 @@ public:
   ~UserRights() {
     if (changed_) setfsuid(former_);
   }
-  // Who has started the process, which may have moved the user's number from the real to the saved one.
+  // The user who has started the process; the process may have moved the user's number from the real to the saved one.
   static uid_t user() noexcept {
     uid_t real = 0;
     uid_t effective = 0;

@@ -1,4 +1,4 @@
-// The option --config: KEY=VALUE each.
+// The option --config, a list of KEY=VALUE.
 #pragma once
 #include <stdexcept>
 #include <string>
@@ -10,8 +10,8 @@ struct WrongOption : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// Gives each pair to `set(key, value)`, whose result is "" or what is wrong. Throws WrongOption with that, and for a
-// text that is not a pair.
+// Passes each pair to `set(key, value)`, which returns "" or an error. Throws WrongOption with that error, or if a text
+// is not a pair.
 template <class Set>
 void forPairs(const std::vector<std::string>& pairs, const Set& set) {
   for (const std::string& pair : pairs) {

@@ -1,4 +1,5 @@
-// rung-run: runs a compiled program with a mapping file on the machine's clock, without LinuxCNC. rungctl reaches it.
+// rung-run: runs a compiled program with a mapping file on the machine's clock, without LinuxCNC. rungctl can connect
+// to it.
 #include <unistd.h>
 
 #include <algorithm>
@@ -53,28 +54,26 @@ struct Options {
   std::string sharedFile;
 };
 
-// The reader of the output may have gone: the process does not end for that.
+// Errors are ignored: the reader of the output may have been closed, which must not end the process.
 void write(const std::string& line) { std::cerr << "rung-run: " << line << std::endl; }
-// Where no log is made yet.
-// What a compiler says has several lines.
+// For messages before there is a log; those of a compiler have several lines.
 void print(const std::string& text) {
   control::Log log(runtime::systemClock(), write);
   for (const auto line : std::views::split(text, '\n'))
     if (!line.empty()) log.always(std::string(line.begin(), line.end()));
 }
 
-// The program has its regular end, whatever ends the process: a terminal that is closed, a limit of processor time,
-// too.
+// Signals after which the program powers off regularly, including a closed terminal and a limit of processor time.
 constexpr std::initializer_list<int> kEndSignals = {SIGINT, SIGTERM, SIGHUP, SIGXCPU};
 
-// They are errors of a write, then.
+// These signals become write errors.
 void ignoreSignals() {
   struct sigaction action{};
   action.sa_handler = SIG_IGN;
   for (const int signal : {SIGPIPE, SIGXFSZ}) sigaction(signal, &action, nullptr);
 }
 
-// One program with its pins, which rungctl can see: what is between its start and its end.
+// One running program with its pins and its socket for rungctl, from start to end.
 class Run {
 public:
   Run(const Options& options, const Image& image, std::unique_ptr<host::PlcHost> host, rung_run::Simulation* simulation,
@@ -118,12 +117,12 @@ private:
     for (const std::string& line : devices_.report()) (void)log_.line(line);
   }
 
-  // Each step comes, whatever becomes of the one before.
+  // Each step is executed even if the one before has failed.
   int end() {
     std::string error = "the program was not switched off";
     manager_.stopping();
     loop_.guarded([&] { waitForEnd(); });
-    loop_.guarded([&] { controller_.serveProgram(&server_); }); // a fault of the last moment
+    loop_.guarded([&] { controller_.serveProgram(&server_); }); // a fault of the last steps
     loop_.guarded([&] { error = host_->close(); });
     loop_.guarded([&] { devices_.end(); });
     loop_.guarded([&] { controller_.serveProgram(&server_); });
@@ -137,7 +136,7 @@ private:
     return error.empty() ? cli::kOk : cli::kEnvironment;
   }
 
-  // A restart may be under way, which the steps wait for.
+  // Turns continue, because the steps may have to wait for a restart.
   void waitForEnd() {
     constexpr int64_t kSoonNs = 500'000'000;
     const int64_t begun = host_->clock().nowNs();
@@ -189,7 +188,7 @@ bool namesDevices(const Options& options) {
   return !options.can.empty() || !options.com.empty() || !options.sharedFile.empty() || !options.config.empty();
 }
 
-// What the program has around it besides its pins; none: the control alone.
+// The environment of the program besides its pins: a simulated control or devices; empty: only the control.
 host::PlcHost::NewInstance newInstanceOf(const Options& options, const Image& image, const host::File& map,
                                          std::vector<std::string>& errors,
                                          std::unique_ptr<rung_run::Simulation>& simulation, io::HostDevices& devices) {
@@ -200,11 +199,11 @@ host::PlcHost::NewInstance newInstanceOf(const Options& options, const Image& im
   if (!io::HostDevices::isFor(image)) return {};
   host::refuseAxes(map, "rung-run: axes are only moved in LinuxCNC", errors);
   devices.set(map, errors);
-  setDevices(devices, options); // they go before the map
+  setDevices(devices, options); // options have priority over the map
   return [&devices](const Image& of, const rung_instance_options& with) { return devices.instance(of, with); };
 }
 
-// A real-time thread that is active for most of the time takes its processor away from all others.
+// A real-time thread that is active most of the time would block all other threads of its processor.
 void checkEarly(const Options& options) {
   constexpr unsigned kPart = 4;
   const unsigned most = options.periodUs / kPart;
@@ -235,7 +234,7 @@ int run(const Options& options) try {
   const host::PlcHost::NewInstance newInstance = newInstanceOf(options, image, map, errors, simulation, devices);
   const bool hasMap = !map.paths.empty();
   std::unique_ptr<host::PlcHost> host;
-  std::string problem; // of the machine
+  std::string problem; // an error of the machine, not of the map
   try {
     if (hasMap)
       host = host::PlcHost::make(
@@ -256,7 +255,7 @@ int run(const Options& options) try {
 } catch (const rung_run::WrongOption& wrong) {
   print(wrong.what());
   return cli::kUsage;
-} catch (const std::exception& error) { // the program, the socket
+} catch (const std::exception& error) { // from the program or the socket
   print(error.what());
   return cli::kEnvironment;
 }
@@ -292,7 +291,7 @@ void addOptions(cli::Command& command, Options& options) {
   command.flag("--unsealed", options.unsealed, "Load a program without a seal");
 }
 
-// What is around the program besides its pins.
+// The options for the environment of the program.
 void addDeviceOptions(cli::Command& command, Options& options) {
   const cli::Option simulate =
       command.flag("--simulate", options.simulate, "Simulate the control of the program's dialect");

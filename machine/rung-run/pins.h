@@ -9,16 +9,16 @@ namespace rung::rung_run {
 
 class Pins {
 public:
-  // Connects the host, which ends after it.
+  // Connects the host, which must be destroyed before this object.
   explicit Pins(host::PlcHost& host) : values_(host.pins().size()) {
     for (Value& value : values_) cells_.push_back({.any = &value});
-    cells_.push_back({}); // a host without pins has cells, too
+    cells_.push_back({}); // so that a host without pins gets a pointer, too
     host.connect(cells_.data());
   }
   Pins(const Pins&) = delete;
   Pins& operator=(const Pins&) = delete;
 
-  // In the order of the map, and one more.
+  // One cell per pin, in the order of the map, and one more.
   const host::PinCell* cells() const noexcept { return cells_.data(); }
 
 private:

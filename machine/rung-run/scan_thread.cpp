@@ -26,7 +26,7 @@ void ScanThread::run(std::promise<std::string> begun) {
   ended_ = true;
 }
 
-// Periods that have passed meanwhile are over: the next step catches up what is due.
+// Periods that have already passed are skipped: the next step runs everything that is due.
 int64_t ScanThread::dueAfter(int64_t dueNs, int64_t nowNs) noexcept {
   const int64_t late = nowNs - dueNs;
   const int64_t passed = late > options_.periodNs ? late / options_.periodNs : 0;
@@ -43,9 +43,9 @@ void ScanThread::step(int64_t nowNs, int64_t elapsedNs) {
 namespace {
 
 constexpr auto kRelaxed = std::memory_order_relaxed;
-constexpr size_t kParts = 4; // classes of lateness from a power of two to the next
+constexpr size_t kParts = 4; // number of classes of lateness per power of two
 
-// Only the scan thread writes: no exchange is needed.
+// Only the scan thread writes, so no compare-and-exchange is needed.
 void raise(std::atomic<int64_t>& most, int64_t value) noexcept {
   if (value > most.load(kRelaxed)) most.store(value, kRelaxed);
 }
@@ -59,7 +59,7 @@ size_t StepTimes::classOf(int64_t ns) noexcept {
   return (power - 1) * kParts + (value >> (power - 2)) - kParts;
 }
 
-// The first value above those of a class.
+// The first value above a class.
 int64_t StepTimes::endOf(size_t number) noexcept {
   if (number < kParts) return static_cast<int64_t>(number) + 1;
   const size_t power = number / kParts + 1;

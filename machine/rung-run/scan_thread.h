@@ -1,4 +1,4 @@
-// How regularly a scan thread runs: figures that it counts itself, and other threads read.
+// Timing figures of a scan thread, counted by that thread and read by other threads.
 #pragma once
 #include <array>
 #include <atomic>
@@ -19,13 +19,14 @@ namespace rung::rung_run {
 
 using runtime::Step;
 
-// Figures of all steps so far; each is consistent in itself, as the thread continues to run.
+// Figures of all steps so far; each value is consistent, but they may be from different moments, as the thread
+// continues to run.
 struct StepFigures {
   uint64_t steps = 0;
-  uint64_t overruns = 0; // steps that began a whole period late, or later
+  uint64_t overruns = 0; // steps that began at least a whole period late
   int64_t shortestPeriodNs = 0;
   int64_t longestPeriodNs = 0;
-  int64_t late99Ns = 0; // 99 % of the steps began no later than this; at most a quarter too high
+  int64_t late99Ns = 0; // 99 % of the steps began no later than this; at most 25 % too high
   int64_t late999Ns = 0;
   int64_t latestNs = 0;
   int64_t meanNs = 0; // mean time of a step
@@ -33,7 +34,7 @@ struct StepFigures {
     int64_t tookNs = 0;
     int64_t beginNs = 0;
   };
-  std::vector<Worst> worst; // the steps that took longest, at most three
+  std::vector<Worst> worst; // the longest steps, at most three
 };
 
 class StepTimes {
@@ -46,7 +47,7 @@ public:
 
 private:
   static constexpr size_t kWorst = 3;
-  static constexpr size_t kClasses = 256; // of lateness
+  static constexpr size_t kClasses = 256; // classes of lateness
   static size_t classOf(int64_t ns) noexcept;
   static int64_t endOf(size_t number) noexcept;
   void addWorst(const Step& step) noexcept;
@@ -61,12 +62,12 @@ private:
   std::array<WorstStep, kWorst> worst_{}; // longest first
 };
 
-// The scan thread of a program on the computer's clock: one step of the host at each multiple of the period, between
-// reading the newest inputs of its connections and writing their outputs.
+// The scan thread of a program on the computer's clock: one step of the host at each multiple of the period. Each step
+// follows the reading of the connections' newest inputs and precedes the writing of their outputs.
 
 struct ScanOptions {
   int64_t periodNs = 1'000'000;
-  int64_t earlyNs = 0; // the thread wakes so long before a step is due; less than the period
+  int64_t earlyNs = 0; // how long before a step is due the thread wakes; less than the period
   runtime::RealTimeOptions thread;
 };
 
@@ -79,9 +80,10 @@ public:
   ScanThread(const ScanThread&) = delete;
   ScanThread& operator=(const ScanThread&) = delete;
 
-  // "", or what the system does not grant.
+  // Returns "", or what the system does not permit.
   std::string start();
-  // Ends the thread when the program needs no more steps: after a few at most, unless it waits for its machine.
+  // Ends the thread when the program needs no more steps: after a few steps at most, unless the program waits for its
+  // machine.
   void end();
   // The same in two calls, because the scan thread may have to wait for the service thread.
   void beginEnd() noexcept { ending_ = true; }
@@ -93,7 +95,7 @@ public:
 
 private:
   void run(std::promise<std::string> begun);
-  // Of the loop.
+  // Called by the step loop.
   int64_t dueAfter(int64_t dueNs, int64_t nowNs) noexcept override;
   void prepare(int64_t untilNs) noexcept override { host_.prefetch(untilNs); }
   void step(int64_t nowNs, int64_t elapsedNs) override;

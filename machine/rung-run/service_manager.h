@@ -1,5 +1,5 @@
-// Reports to the service manager (systemd), if it has started this process: that the program scans, that it still does,
-// and that it ends. Service thread; without a service manager nothing happens.
+// Reports to the service manager (systemd), if it has started this process: the program has started, still runs, or
+// ends. Service thread; does nothing without a service manager.
 #pragma once
 #include <cstdint>
 
@@ -10,13 +10,13 @@ public:
   ServiceManager();
 
   void ready() const;
-  // Called in every turn, with the number of steps so far: only steps feed the manager's watchdog, at twice its rate.
-  // If the scan thread or the service thread stops, the manager ends the process.
+  // Called in every turn with the number of steps so far: resets the manager's watchdog twice per watchdog time, but
+  // only after new steps. If the scan thread or the service thread stops, the manager ends the process.
   void feed(uint64_t steps, int64_t nowNs);
   void stopping() const;
 
 private:
-  int64_t everyNs_ = 0; // half of the watchdog's time; 0: there is none
+  int64_t everyNs_ = 0; // half of the watchdog time; 0: no watchdog
   int64_t fedNs_ = 0;
   uint64_t steps_ = 0;
 };

@@ -8,8 +8,8 @@
 
 namespace rung::rung_run {
 
-// For a program of the dialect; `config` is KEY=VALUE each. Throws std::runtime_error where there is no such plug-in,
-// or a key or its value is wrong. The plug-in stays loaded.
+// Creates a simulation for a program of the dialect; `config` is a list of KEY=VALUE. Throws std::runtime_error if the
+// plug-in is missing, or a key or its value is wrong. The plug-in stays loaded.
 std::unique_ptr<Simulation> loadSimulation(const char* dialect, const std::vector<std::string>& config);
 
 } // namespace rung::rung_run

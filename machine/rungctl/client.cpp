@@ -25,7 +25,7 @@ using nlohmann::json;
 
 namespace {
 
-// Checks which user listens there: another user could have created the folder first. "" of the user himself, and of
+// Checks which user listens there: another user could have created the folder first. Returns "" for the own user and
 // root.
 std::string strangerOf(int made) {
   ucred who{};
@@ -36,7 +36,7 @@ std::string strangerOf(int made) {
   return "belongs to user " + std::to_string(who.uid) + ", and is not used";
 }
 
-// -1 with errno: no host listens there.
+// Returns -1 with errno if no host listens there.
 int connected(const std::string& path) {
   const sockaddr_un address = control::socketAddress(path);
   const int made = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
@@ -67,7 +67,7 @@ Reached reach(const std::string& host) {
   throw std::runtime_error(problem + "; is it running, and started by you?");
 }
 
-// A host is connected with once: to look first whether it is there would make it serve two.
+// Connects only once to each host: a separate check whether it runs would make it serve two connections.
 Reached reachTheOnlyOne() {
   std::vector<Reached> reached;
   for (control::Place& place : control::placesOf(geteuid()))
@@ -125,7 +125,7 @@ std::optional<json> Client::event(std::chrono::milliseconds patience) {
   return std::nullopt;
 }
 
-// The next line, nothing within that time; or the host has gone.
+// Returns the next line; nothing after the wait, or if the host has disconnected.
 std::optional<json> Client::next(std::chrono::milliseconds wait) {
   while (true) {
     if (const std::optional<std::string> line = connection_.line()) {
@@ -144,7 +144,7 @@ std::optional<json> Client::next(std::chrono::milliseconds wait) {
 
 namespace {
 
-// False: there is no more.
+// Returns false at the end.
 bool readMore(int in, std::string& text) {
   std::array<char, 4096> buffer{};
   const ssize_t count = read(in, buffer.data(), buffer.size());
@@ -176,7 +176,7 @@ void relay(control::Connection& host, int in, std::ostream& out, const volatile 
     std::array<pollfd, 2> waiting = {
         pollfd{host.socket(), static_cast<short>(POLLIN | (host.wantsToSend() ? POLLOUT : 0)), 0},
         pollfd{in, POLLIN, 0}};
-    if (poll(waiting.data(), waiting.size(), kTurnMs) < 0) continue; // a signal
+    if (poll(waiting.data(), waiting.size(), kTurnMs) < 0) continue; // interrupted by a signal
     if ((waiting[0].revents & POLLOUT) != 0) host.sendMore();
     if ((waiting[0].revents & ~POLLOUT) != 0) host.receive();
     if (waiting[1].revents != 0 && !readMore(in, text)) return;

@@ -1,4 +1,4 @@
-// The connection of rungctl with a host's socket: requests with their answers, and events.
+// The connection of rungctl to a host's socket: requests with their answers, and events.
 #pragma once
 #include <chrono>
 #include <deque>
@@ -12,7 +12,7 @@
 
 namespace rung::rungctl {
 
-// A connection with a host.
+// A connection to a host.
 struct Reached {
   std::string host;
   control::Connection connection;
@@ -20,8 +20,8 @@ struct Reached {
 
 class Client {
 public:
-  // Connects to the host of this name, or to the only host if the name is empty. Throws std::runtime_error: there is no
-  // host, or not this one, or it uses another protocol.
+  // Connects to the host with this name, or to the only host if the name is empty. Throws std::runtime_error if there
+  // is no host, not this one, or more than one, or if it uses another protocol.
   explicit Client(const std::string& host);
 
   const nlohmann::json& greeting() const { return greeting_; }
@@ -34,7 +34,7 @@ public:
   // The same, for at most that time.
   std::optional<nlohmann::json> event(std::chrono::milliseconds patience);
 
-  // For lines that are passed on as they are.
+  // For lines that are passed on unchanged.
   control::Connection& connection() { return connection_; }
 
 private:
@@ -48,10 +48,10 @@ private:
   bool interrupted_ = false; // a signal ended the last wait
 };
 
-// Passes lines of the protocol unchanged between another program and a host.
+// Relay of protocol lines between another program and a host.
 
 // Passes lines from `in` to the host and from the host to `out`, until one of them ends or `stop` is not 0. Throws
-// std::runtime_error if a line is longer than a request may be.
+// std::runtime_error if a line exceeds the length of a request.
 void relay(control::Connection& host, int in, std::ostream& out, const volatile int& stop);
 
 } // namespace rung::rungctl

@@ -1,4 +1,4 @@
-// rungctl: looks at and changes a program that runs in a host, by the host's socket (docs/control-protocol.md).
+// rungctl: shows and changes a program that runs in a host, through the host's socket (docs/control-protocol.md).
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -32,9 +32,9 @@ using namespace rung;
 using namespace rung::rungctl;
 using nlohmann::json;
 
-volatile int gStop = 0; // of SIGINT and SIGTERM
+volatile int gStop = 0; // set by SIGINT and SIGTERM
 
-// As in scenarios; what JSON cannot hold stays a text, which the host takes or refuses with what it expected.
+// Values are written as in scenarios; those that JSON cannot represent stay texts, which the host accepts or refuses.
 json valueOf(const std::string& text) {
   if (const std::optional<bool> bit = text::bitWord(text)) return *bit;
   const text::WrittenNumber number = text::writtenNumber(text);
@@ -43,7 +43,7 @@ json valueOf(const std::string& text) {
   return number.negative ? json(static_cast<int64_t>(number.bits())) : json(number.magnitude);
 }
 
-// What rung-run adds: its clock and its connections.
+// The figures that rung-run adds: its clock and its connections.
 std::string clockOf(const json& answer) {
   if (!answer.contains("clock")) return {};
   const json& clock = answer["clock"];
@@ -80,7 +80,7 @@ std::string stopOf(const json& answer) {
                      fault, problem.empty() ? "" : "the last restart has failed: " + problem + "\n");
 }
 
-// M, S and T functions on their way to the program: a line each, the oldest first.
+// M, S and T functions in progress or queued: one line each, the oldest first.
 std::string functionsOf(const json& answer) {
   std::string text;
   const json functions = answer.value("functions", json::object());
@@ -165,7 +165,7 @@ int get(Client& client, const Words& words) {
   return cli::kOk;
 }
 
-// Of a watched name, which has none after a program without that name has taken over.
+// A watched name has no value after a program without that name has taken over.
 std::string changeOf(const json& name, const json& value) {
   const std::string text = name["name"].get<std::string>();
   return value.is_null() ? text + " is gone" : text + " = " + shown(value);
@@ -189,10 +189,10 @@ int watch(Client& client, const Words& words) {
   return cli::kOk;
 }
 
-// What the program has done until now and has not arrived yet: a busy machine lets this process wait.
+// Adds the scans that the host has completed but this process has not yet received, because a busy machine delays it.
 void addRest(Client& client, const Words& words, rungctl::Trace& trace) {
   using std::chrono::milliseconds;
-  // 0 where no scan ends any more.
+  // 0 if no scan ends any more
   const uint64_t newest = client.ask({{"do", "get"}, {"names", words.names}}).value("scan", uint64_t{0});
   const milliseconds patience(newest == 0 ? 0 : 2000);
   while (newest == 0 || trace.lastScan() < newest) {
@@ -202,9 +202,10 @@ void addRest(Client& client, const Words& words, rungctl::Trace& trace) {
   }
 }
 
-// Until its time is over or the user ends it. What came before the host has gone is in the trace, too; then why.
+// Adds events until the time is over or the user interrupts. Events before a disconnection of the host are kept; its
+// reason is returned.
 std::string fill(Client& client, const Words& words, rungctl::Trace& trace) try {
-  constexpr std::chrono::milliseconds kTurn(100); // it ends in time where no scan comes, too
+  constexpr std::chrono::milliseconds kTurn(100); // short, so that the trace ends in time even without scans
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(words.seconds);
   while (gStop == 0 && (words.seconds == 0 || std::chrono::steady_clock::now() < end))
     if (const std::optional<json> event = client.event(kTurn); event && event->value("event", "") == "values")
@@ -212,7 +213,7 @@ std::string fill(Client& client, const Words& words, rungctl::Trace& trace) try 
   addRest(client, words, trace);
   return {};
 } catch (const std::runtime_error& problem) {
-  return gStop == 0 ? problem.what() : ""; // who ends it twice does not wait for the rest
+  return gStop == 0 ? problem.what() : ""; // after a second interrupt the rest is not waited for
 }
 
 int trace(Client& client, const Words& words) {
@@ -220,7 +221,7 @@ int trace(Client& client, const Words& words) {
   if (!file) return fail("cannot write " + words.file, cli::kEnvironment);
   const json begun = asked(client, {{"do", "watch"}, {"names", words.names}, {"all", true}});
   rungctl::Trace trace(file, client.greeting().value("program", ""), begun["names"]);
-  file.flush(); // its head shows a reader that no scan is missed from now on
+  file.flush(); // the header shows readers that recording has started
   const std::string problem = fill(client, words, trace);
   trace.end();
   if (!file.flush()) return fail("cannot write " + words.file, cli::kEnvironment);
@@ -237,7 +238,7 @@ int set(Client& client, const Words& words) {
   return cli::kOk;
 }
 
-// NAME KEY=VALUE…: numbers are numbers, all else is text.
+// NAME KEY=VALUE…: numbers become JSON numbers, everything else texts.
 int event(Client& client, const Words& words) {
   json keys = json::object();
   for (const std::string& word : words.names) {
@@ -251,7 +252,7 @@ int event(Client& client, const Words& words) {
   return cli::kOk;
 }
 
-// The host may have to make code first.
+// The host may first have to compile code.
 constexpr std::chrono::seconds kForce(compile::Compilation::kMostSeconds + 10);
 
 int force(Client& client, const Words& words) {
@@ -285,7 +286,7 @@ int simple(Client& client, const Words& words, const char* command, const char* 
   return cli::kOk;
 }
 
-// A pin, its value, and what it is for.
+// Prints each pin with its value and its uses.
 int map(Client& client, const Words& words) {
   const json answer = asked(client, {{"do", "map"}});
   std::string text;
@@ -356,7 +357,7 @@ int hosts(const Words& words) try {
   return fail(problem.what());
 }
 
-// What a command line may have after the command, and what the command does with a connection to the host.
+// A command: its options, and its function, which uses a connection to the host.
 struct Row {
   const char* name;
   const char* description;
@@ -493,7 +494,7 @@ private:
 
   cli::CommandLine& app_;
   int& status_;
-  Common before_; // the command
+  Common before_; // common options before the command
 };
 
 } // namespace

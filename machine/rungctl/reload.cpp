@@ -50,7 +50,7 @@ std::string reportOf(const json& answer) {
   return text;
 }
 
-// What has become of it.
+// A sentence about the state of the program after a reload or a rollback.
 std::string whetherItRuns(const json& answer, const char* program) {
   if (answer.value("put_back", false))
     return "the new program stopped at once with a fault, and the former one is back: see status";
@@ -66,7 +66,7 @@ std::string stateOf(const json& report) {
   return state == "too-slow" ? "ended, too slow" : state;
 }
 
-// The program runs beside the other one until it has been compared. "", or why it does not take over.
+// Runs the new program as a shadow until it has been compared. Returns "", or the reason why it does not take over.
 std::string whatSpeaksAgainst(Client& client, const Words& words, const volatile int& stop, json request) {
   request["do"] = "shadow";
   request["scans"] = words.shadow;
@@ -95,7 +95,7 @@ std::string whatSpeaksAgainst(Client& client, const Words& words, const volatile
   return report["runs"] == 0 ? "no run of a task was compared" : "";
 }
 
-// What is wrong with the sources, as rungc prints it.
+// Prints the errors of the sources, like rungc.
 int failSources(const Words& words, const std::string& report, const std::string& diagnostics = "",
                 int status = cli::kWrong) {
   if (words.common.asJson) {
@@ -109,12 +109,12 @@ int failSources(const Words& words, const std::string& report, const std::string
 }
 
 void sendSources(Client& client, const std::string& packed) {
-  constexpr size_t kPiece = 45'000; // a request has 64 kB at most
+  constexpr size_t kPiece = 45'000; // a request has at most 64 kB
   for (size_t at = 0; at < packed.size(); at += kPiece)
     asked(client, {{"do", "sources"}, {"first", at == 0}, {"piece", control::toBase64(packed.substr(at, kPiece))}});
 }
 
-// The host has compiled them, where the status is kOk; else what is wrong has been said.
+// Lets the host compile the sources. Returns kOk, or another status after printing the errors.
 int compileThere(Client& client, const Words& words, const volatile int& stop) {
   rung_compile::Collected collected = rung_compile::collect(words.files, isatty(STDERR_FILENO) != 0);
   if (!collected.sources)
@@ -134,7 +134,7 @@ int compileThere(Client& client, const Words& words, const volatile int& stop) {
   return cli::kOk;
 }
 
-// The program, as requests name it; with another status than kOk there is none.
+// Sets the program in the request. Returns kOk, or another status if there is none.
 int programOf(Client& client, const Words& words, const volatile int& stop, json& request) {
   const bool compiled = std::ranges::any_of(words.files, [](const std::string& file) { return file.ends_with(".so"); });
   if (compiled && words.files.size() > 1)

@@ -1,10 +1,10 @@
-// rungctl reload: a compiled program, or sources, which the host compiles; rungctl rollback.
+// The commands rungctl reload, with a compiled program or sources that the host compiles, and rungctl rollback.
 #pragma once
 #include "machine/rungctl/words.h"
 
 namespace rung::rungctl {
 
-// The exit status. `stop` is not 0 when the user has interrupted the command.
+// Returns the exit status. `stop` becomes other than 0 when the user interrupts the command.
 int reload(Client& client, const Words& words, const volatile int& stop);
 int rollback(Client& client, const Words& words);
 

@@ -13,12 +13,12 @@ namespace rung::rungctl {
 
 class Trace {
 public:
-  // `names` is the answer to `watch`. The stream outlives the trace.
+  // `names` is the answer to `watch`. The stream must outlive the trace.
   Trace(std::ostream& out, const std::string& program, const nlohmann::json& names);
   void add(const nlohmann::json& event);
   void end() { vcd_.end(); }
   uint64_t scans() const { return scans_; }
-  uint64_t lastScan() const { return lastScan_; } // 0 before the first
+  uint64_t lastScan() const { return lastScan_; } // 0 before the first scan
 
 private:
   runtime::VcdWriter vcd_;

@@ -1,4 +1,4 @@
-// The arguments of commands, and what all commands do with them: request, print and fail.
+// The arguments of commands, and the functions that all commands share: request, print and fail.
 #pragma once
 #include <chrono>
 #include <string>
@@ -17,7 +17,7 @@ struct Common {
   bool asJson = false;
 };
 
-// A command, its arguments, and its action on a host.
+// The arguments of a command.
 struct Words {
   Common common;
   std::vector<std::string> names;
@@ -29,23 +29,23 @@ struct Words {
   bool all = false;
   bool follow = false;
   bool on = false;
-  unsigned shadow = 0; // scans
+  unsigned shadow = 0; // number of scans
   bool yes = false;
   bool late = false;
   unsigned top = 20;
   std::string by = "time";
   bool reset = false;
-  bool profile = false; // of sources
+  bool profile = false; // the sources are compiled with profile counters
 };
 
 // Prints the reason on standard error; returns the exit status.
 int fail(const std::string& message, int status = cli::kWrong);
-// The answer, if it is ok; throws std::runtime_error with the host's sentence.
+// Sends a request and returns the answer; throws std::runtime_error with the host's sentence if the answer is not ok.
 nlohmann::json asked(Client& client, const nlohmann::json& request,
                      std::chrono::milliseconds patience = Client::kAnswer);
-// A text without quotes.
+// A JSON value as text; strings without quotes.
 std::string shown(const nlohmann::json& value);
-// With --json the answer, else the text.
+// Prints the answer with --json, otherwise the text.
 void print(const Words& words, const nlohmann::json& answer, const std::string& text);
 
 } // namespace rung::rungctl

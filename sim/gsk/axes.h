@@ -1,4 +1,5 @@
-// Alarms of the simulated CNC. The manual has no alarm list; numbers it does not name are the model's own (900 and up).
+// Alarms of the simulated CNC. The manual has no alarm list; numbers that it does not contain are defined by the model
+// (900 and up).
 #pragma once
 #include <algorithm>
 #include <array>
@@ -13,12 +14,12 @@ namespace rung::sim::gsk {
 
 inline constexpr uint32_t kAlarmPlcAxis = 311;       // l.7817
 inline constexpr uint32_t kAlarmNoFeed = 901;        // a cutting block without F
-inline constexpr uint32_t kAlarmNotReferenced = 902; // G28, G30 or a PLC command 7-10 before zero return, l.7787
+inline constexpr uint32_t kAlarmNotReferenced = 902; // G28, G30 or a PLC command 7-10 before return to zero, l.7787
 inline constexpr uint32_t kAlarmOverTravel = 910;    // + axis (1-8); negative direction 920 + axis
 
 class Alarms {
 public:
-  Alarms() { active_.reserve(32); } // all that the CNC raises on its own
+  Alarms() { active_.reserve(32); } // room for all alarms of the CNC itself
   void raise(uint32_t number) {
     if (std::ranges::find(active_, number) == active_.end()) active_.push_back(number);
   }
@@ -37,25 +38,25 @@ inline constexpr uint32_t kAxes = 8;
 inline constexpr uint32_t kSlotMs = 8;
 inline constexpr double kUnitsPerMm = 10000;
 
-// Units that a speed in mm/min covers in one slot.
+// Distance in units that a speed in mm/min covers in one slot.
 constexpr double unitsPerSlot(double mmPerMin) { return mmPerMin * kUnitsPerMm * kSlotMs / 60000.0; }
 
 struct Axis {
   int64_t machine = 0;
   int64_t commanded = 0; // continues while the machine is locked (l.5305)
   int64_t relative = 0;
-  double rest = 0;       // of a unit, of the motion under way
-  bool moving = false;   // a command is being executed, even if interlock holds it (l.4127)
-  bool negative = false; // of the last motion (l.4164)
+  double rest = 0;       // fraction of a unit left over from the current motion
+  bool moving = false;   // a command is being executed, even while interlock holds the axis (l.4127)
+  bool negative = false; // direction of the last motion (l.4164)
   bool referenced = false;
   bool blockedPositive = false; // over-travel, until reset (l.3613)
   bool blockedNegative = false;
-  std::array<bool, 4> atReference = {}; // returned to, and not left since
+  std::array<bool, 4> atReference = {}; // the axis has returned there and not left since
 };
 
 class Axes {
 public:
-  // Names in order, "XYZ"; their number is the number of axes.
+  // Names in order, "XYZ"; their count is the number of axes.
   std::string names = "XYZ";
   // Whether *+L, *-L (G114, G116) are wired.
   bool limitSwitches = false;
@@ -69,7 +70,7 @@ public:
 
   // Moves by `delta`; the machine does not move under machine lock.
   void move(uint32_t axis, int64_t delta);
-  // Towards `target` (in terms of `commanded`) by at most `units`; true when it is there.
+  // Moves towards `target` (in terms of `commanded`) by at most `units`; returns true on arrival.
   bool moveTowards(uint32_t axis, int64_t target, double units);
   void startMotion(uint32_t axis, bool negative);
   bool mayMove(uint32_t axis, bool negative) const;

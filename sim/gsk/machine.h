@@ -1,4 +1,4 @@
-// What the parts of the simulated CNC share: tables, axes, spindles, alarms, and the laws of speed.
+// State shared by the parts of the simulated CNC: tables, axes, spindles, alarms, and the rules for speeds.
 #pragma once
 #include <algorithm>
 
@@ -14,7 +14,7 @@ struct Machine {
   Spindle spindle;
   Alarms alarms;
   uint8_t plcAxes = 0; // bit n-1: axis n belongs to the PLC (EAXn)
-  bool rapid = false;  // the last motion that began was rapid (l.5607)
+  bool rapid = false;  // the motion that began last was rapid (l.5607)
 
   bool isPlcAxis(uint32_t axis) const { return ((plcAxes >> axis) & 1) != 0; }
   int64_t macro(uint32_t number, const nc::gsk::SignalsIo& io) const;

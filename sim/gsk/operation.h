@@ -1,4 +1,4 @@
-// What a block of a part program asks of the PLC: its auxiliary functions M, S, T, B (man. §7, l.5732-6131).
+// The auxiliary functions M, S, T, B of a part program's block (man. §7, l.5732-6131).
 #pragma once
 #include <array>
 #include <cstdint>
@@ -17,15 +17,16 @@ struct AuxiliaryCodes {
   std::vector<uint32_t> m; // at most three
   std::optional<uint32_t> s, t, b;
   bool external = false; // EF of G81 (l.9450)
-  // AFL lets only M00, M01, M02, M30 through (l.5947-5952).
+  // AFL suppresses all codes except M00, M01, M02, M30 (l.5947-5952).
   void lock();
   bool any() const { return !m.empty() || s || t || b || external; }
-  // All of them in one slot; no other function is under way. Those beside the external one use the common answer.
+  // Starts all functions in one slot, when no other function is in progress. Those beside the external one use the
+  // common answer.
   void start(nc::GskFunctions& functions, const nc::gsk::SignalsIo& io, bool highSpeed) const;
 };
 
-// Modes and the automatic run of the simulated CNC: cycle start, feed hold, single block, the blocks of a part program
-// with their motion and auxiliary functions (man. chapters 1.5, V, VI).
+// Modes and the automatic operation of the simulated CNC: cycle start, feed hold, single block, the blocks of a part
+// program with their motions and auxiliary functions (man. chapters 1.5, V, VI).
 
 enum class Mode : uint8_t { None, Mdi, Auto, Edit, Handle, Jog, Zero, Dnc, Step };
 
@@ -40,7 +41,7 @@ struct PathMove {
   std::array<int64_t, kAxes> start = {};
   std::array<int64_t, kAxes> target = {};
   bool rapid = true;
-  uint32_t reference = 0; // reference point 1-4 that the axes of `arrives` reach
+  uint32_t reference = 0; // reference point 1-4, reached by the axes in `arrives`
   uint8_t arrives = 0;
   double done = 0; // 0-1
   bool begun = false;
@@ -49,22 +50,22 @@ struct PathMove {
 struct Modal {
   PathModes path;
   bool cutting = false;    // G1
-  bool external = false;   // G81 until G80 or a code of group 01
+  bool external = false;   // from G81 until G80 or a code of group 01
   uint32_t workOffset = 1; // G54
   uint32_t h = 0, d = 0;
-  int lengthSign = 0; // G43 is 1
+  int lengthSign = 0; // 1: G43; 0: off
 };
 
 class Operation {
 public:
-  Operation() { codes_.m.reserve(3); } // of a block
+  Operation() { codes_.m.reserve(3); } // largest number in a block
   void load(PartProgram program);
   void loadMdi(PartProgram program);
-  bool select(uint32_t number, bool mdi); // a program loaded before
+  bool select(uint32_t number, bool mdi); // selects a program that was loaded before
   void step(const nc::gsk::SignalsIo& io, Machine& machine);
-  void idle(const nc::gsk::SignalsIo& io); // a slot of reset: modes and confirmations only
+  void idle(const nc::gsk::SignalsIo& io); // a slot during reset: only modes and confirmations
   void reset(const nc::gsk::SignalsIo& io, Machine& machine);
-  void powerOff(); // programs stay, nothing runs
+  void powerOff(); // programs are kept, nothing runs
 
   Mode mode() const { return mode_; }
   RunState state() const { return state_; }
@@ -74,7 +75,7 @@ public:
   double absolute(const Machine& machine, uint32_t axis) const; // mm, workpiece coordinates
 
 private:
-  struct Run; // what one step needs
+  struct Run; // the parameters of one step
   void followMode(Run& run);
   void followButtons(Run& run);
   void progress(Run& run);
@@ -93,7 +94,7 @@ private:
 
   PartProgram program_;
   PartProgram mdi_;
-  std::map<uint32_t, PartProgram> stored_; // by O
+  std::map<uint32_t, PartProgram> stored_; // by O number
   const PartProgram* running() const { return runMode_ == Mode::Mdi ? &mdi_ : &program_; }
 
   Mode mode_ = Mode::None;
@@ -104,34 +105,34 @@ private:
   size_t next_ = 0;
   uint32_t sequence_ = 0;
 
-  // The block under way.
+  // The block in progress.
   bool inBlock_ = false;
   Modal modal_;
   AuxiliaryCodes codes_;
-  std::array<PathMove, 2> moves_; // of a block: over an intermediate point to a reference point
+  std::array<PathMove, 2> moves_; // of a block: via an intermediate point to a reference point
   size_t moveCount_ = 0;
-  size_t move_ = 0; // under way
+  size_t move_ = 0; // index of the move in progress
   double dwellMs_ = 0;
   bool externalPending_ = false;
   nc::GskFunctions functions_{nc::GskFunctions::Answer::ByLevel};
   double speed_ = 0;
 };
 
-// What the files of Operation share.
+// Shared by the source files of Operation.
 
 struct Operation::Run {
   const nc::gsk::SignalsIo& io;
   Machine& machine;
 };
 
-// Manual motion of the simulated CNC: jog, single step, hand wheels, return to the reference point (man. chapters III,
+// Manual motion of the simulated CNC: jog, single step, handwheels, return to the reference point (man. chapters III,
 // IV).
 
 class Manual {
 public:
   double jogSpeed = 2000; // mm/min at 100 %; the manual names no parameter
 
-  // Pulses of hand wheel 1 or 2, signed; they move the axis in hand-wheel mode and are lost elsewhere.
+  // Adds pulses of handwheel 1 or 2, signed; they move the axis in handwheel mode and are lost in other modes.
   void turnWheel(uint32_t wheel, int64_t pulses) { pulses_[wheel - 1] += pulses; }
   void step(const nc::gsk::SignalsIo& io, Machine& machine, Mode mode);
   void stop(Machine& machine);
@@ -142,11 +143,11 @@ private:
   void returnToReference(const nc::gsk::SignalsIo& io, Machine& machine, uint32_t axis);
 
   std::array<int64_t, 2> pulses_ = {};
-  std::array<int64_t, kAxes> target_ = {}; // of steps and wheels, where `pending_`
+  std::array<int64_t, kAxes> target_ = {}; // of steps and wheels; valid where `pending_`
   std::array<bool, kAxes> pending_ = {};
   uint8_t positiveWas_ = 0;
   uint8_t negativeWas_ = 0;
-  uint8_t driven_ = 0; // axes that this part moves
+  uint8_t driven_ = 0; // axes moved by this class
   Mode mode_ = Mode::None;
 };
 

@@ -1,4 +1,4 @@
-// Part programs of the simulated CNC: the text of `event program` and `event mdi`, read into blocks.
+// Part programs of the simulated CNC: parses the text of `event program` and `event mdi` into blocks.
 //
 //   block := ["/"] { word | "(" comment ")" | "#" number "=" value }
 #pragma once
@@ -19,7 +19,7 @@ struct Word {
 
 struct Block {
   bool skipped = false;  // "/"
-  uint32_t sequence = 0; // N, 0: none
+  uint32_t sequence = 0; // N; 0: none
   std::vector<Word> words;
 
   bool empty() const { return sequence == 0 && words.empty(); }
@@ -30,7 +30,7 @@ struct PartProgram {
   std::vector<Block> blocks;
 };
 
-// "" and the program, or what is wrong with the text. `axes`: the letters of the axes.
+// Returns "" and the program, or the error in the text. `axes`: the letters of the axes.
 std::string readPartProgram(std::string_view text, std::string_view axes, bool manyM, PartProgram& program);
 
 } // namespace rung::sim::gsk

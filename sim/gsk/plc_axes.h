@@ -1,5 +1,5 @@
-// PLC axis control of the simulated CNC: moves the axes that parameter 7010 gives to a group and EAX hands over, by the
-// commands of the program (man. §9.2, l.7566-8289; rtlib/nc/control/gsk/axis_groups.h).
+// PLC axis control of the simulated CNC: executes the program's commands (man. §9.2, l.7566-8289;
+// rtlib/nc/control/gsk/axis_groups.h) for axes that parameter 7010 assigns to a group and EAX gives to the PLC.
 #pragma once
 #include <array>
 
@@ -13,7 +13,7 @@ public:
   void step(const nc::gsk::SignalsIo& io, Machine& machine, bool emergencyStop);
 
 private:
-  class Mover; // the machine in a slot
+  class Mover; // the state of one slot
 
   nc::GskAxisGroups groups_;
   std::array<int64_t, kAxes> target_ = {};

@@ -1,5 +1,5 @@
-// The simulated CNC beside a GSK25i PLC (`config nc simulated`): it reads X and G, advances by one slot of 8 ms and
-// writes F, before each slot of the PLC. Everything is a function of the signals and the number of slots.
+// The simulated CNC of a GSK25i PLC (`config nc simulated`): before each slot of the PLC it reads X and G, advances by
+// one slot of 8 ms and writes F. Its state depends only on the signals and the number of slots.
 #pragma once
 #include <optional>
 #include <string>
@@ -14,16 +14,16 @@
 
 namespace rung::sim::gsk {
 
-inline constexpr uint32_t kResetSlots = 25;   // RST stays 200 ms after its cause (l.5253: set by a parameter)
-inline constexpr uint32_t kLowSpeedSlots = 3; // a low-speed window request is answered so many slots later
+inline constexpr uint32_t kResetSlots = 25;   // RST stays on for 200 ms after its cause (l.5253: set by a parameter)
+inline constexpr uint32_t kLowSpeedSlots = 3; // slots after which a low-speed window request is answered
 
 class Simulator {
 public:
-  // Cold: as delivered. Warm: positions, programs and tables stay, but for what is volatile.
+  // Cold: as delivered. Warm: positions, programs and tables are kept, except volatile ones.
   void powerOn(bool warm);
   void step(const nc::gsk::SignalsIo& io);
 
-  // "" or what is wrong.
+  // Returns "", or the error.
   std::string loadProgram(std::string_view text, bool mdi);
   void pressReset() { resetKey_ = true; }
   void raiseAlarm(uint32_t number) { machine_.alarms.raise(number); }
@@ -33,7 +33,7 @@ public:
 
   // "MPOS.1" and so on (docs/dialects/simulated-nc-gsk.md).
   std::optional<double> quantity(std::string_view name) const;
-  double machinePosition(uint32_t axis) const; // 0.001 mm, rounded down; 0 of one that is not there
+  double machinePosition(uint32_t axis) const; // 0.001 mm, rounded down; 0 if the axis does not exist
   std::string setQuantity(std::string_view name, double value);
 
   // Configuration, before the first power-on.
@@ -57,7 +57,7 @@ private:
   PlcAxes plcAxes_;
   SpindlePositioning positioning_;
   ExternalData external_;
-  std::vector<ConfiguredParameter> parameters_; // of the configuration, put back by a cold start
+  std::vector<ConfiguredParameter> parameters_; // from the configuration, restored by a cold start
   bool absoluteEncoders_ = true;
   bool locked_ = false;
   bool resetKey_ = false;

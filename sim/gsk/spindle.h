@@ -1,5 +1,5 @@
-// The spindles of the simulated CNC: speed command, override, enabling, gears, orientation (man. chapter VIII). The
-// direction and the stop of M3, M4, M5 are the PLC's: SGN and *SSTP.
+// The spindles of the simulated CNC: speed command, override, enabling, gears, orientation (man. chapter VIII).
+// Direction and stop for M3, M4, M5 are controlled by the PLC: SGN and *SSTP.
 #pragma once
 #include <cstdint>
 
@@ -29,13 +29,13 @@ private:
   double firstTarget(const nc::gsk::SignalsIo& io, const Tables& tables) const;
   void writeGear(const nc::gsk::SignalsIo& io, const Tables& tables) const;
 
-  uint32_t commanded_ = 0; // by S
+  uint32_t commanded_ = 0; // by the S code
   Motor one_;
   Motor two_;
 };
 
-// Spindle positioning mode of the simulated CNC: entered with M18, left with M23, by the handshake of release and clamp
-// (man. l.6954-6995). Motion of the positioned spindle is not simulated.
+// Spindle positioning mode of the simulated CNC: entered with M18, left with M23, with the handshake of release and
+// clamp (man. l.6954-6995). Motion of the positioned spindle is not simulated.
 
 class SpindlePositioning {
 public:
@@ -47,12 +47,12 @@ public:
 private:
   enum class Phase : uint8_t {
     Rotating,
-    StopTaken, // SPSTP is to fall
+    StopTaken, // waits for SPSTP to fall
     Release,   // SUCLP until *SUCPF = 0
-    Released,  // *SUCPF is to rise
+    Released,  // waits for *SUCPF to rise
     Orient,
     Clamp,   // SCLP until *SCPF = 0
-    Clamped, // *SCPF is to rise
+    Clamped, // waits for *SCPF to rise
     Positioned,
     LeaveRelease,
     LeaveReleased,

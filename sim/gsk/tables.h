@@ -1,6 +1,6 @@
 // The tables of the simulated CNC: offsets, parameters, macro variables, pitch compensation, tool numbers. Values are
-// held in 0.0001, the scale of the window functions (man. l.8686-8945); a cell that was never written holds 0, a
-// parameter its default.
+// in units of 0.0001, the scale of the window functions (man. l.8686-8945); a cell that was never written is 0, a
+// parameter has its default.
 #pragma once
 #include <compare>
 #include <cstdint>
@@ -12,7 +12,7 @@ enum class Table : uint8_t { ToolOffset, WorkOffset, Parameter, Macro, Pitch, To
 
 inline constexpr int64_t kTableScale = 10000;
 
-// Parameters by the numbers that the manual names.
+// Parameters that the manual names by number.
 inline constexpr uint32_t kParamGuard = 2402;       // .0 RLK l.3716, .7 high-speed M/S/T/B l.6045
 inline constexpr uint32_t kParamManyM = 1803;       // .6 l.5980
 inline constexpr uint32_t kParamDryRun = 1210;      // mm/min, l.5339
@@ -39,13 +39,13 @@ public:
   int64_t get(Table table, uint32_t number, uint32_t attribute = 0) const;
   void set(Table table, uint32_t number, uint32_t attribute, int64_t value);
 
-  // A parameter's whole part, its bits, and its value as a real; `axis` counts from 0.
+  // The integer part, a bit, and the real value of a parameter; `axis` counts from 0.
   int64_t parameter(uint32_t number, uint32_t axis = 0) const;
   bool parameterBit(uint32_t number, uint32_t bit) const { return ((parameter(number) >> bit) & 1) != 0; }
   double parameterReal(uint32_t number, uint32_t axis = 0) const;
 
   void clear() { cells_.clear(); }
-  // What a power-off does not keep: the common variables #100-#199.
+  // Clears the common variables #100-#199, which are lost at power-off.
   void clearVolatile();
 
 private:

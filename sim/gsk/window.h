@@ -20,12 +20,12 @@ struct WindowAnswer {
   int64_t data = 0;
 };
 
-// Highest numbers of this model's tables, where the manual gives none.
+// Highest numbers of this model's tables, which the manual does not specify.
 inline constexpr uint32_t kToolOffsets = 400;
 inline constexpr uint32_t kMaxParameter = 9999;
 inline constexpr uint32_t kMaxPitch = 1023;
 
-// `locked`: tables are protected, every write ends with code 7.
+// `locked`: tables are protected; every write ends with code 7.
 WindowAnswer answerWindow(const WindowRequest& request, Machine& machine, const nc::gsk::SignalsIo& io,
                           uint32_t sequence, bool locked);
 

@@ -1,4 +1,4 @@
-// The signals and parameters that the axes work with (man. 7.10, 7.13, 7.15), found once.
+// The signals and parameters of the axes (man. 7.10, 7.13, 7.15), looked up once.
 #pragma once
 #include <array>
 
@@ -43,7 +43,7 @@ struct AxisSignals {
                                  WordSignal("P_H4AS")};
   WordSignal handwheelMove{"HWMOVE"};
 
-  // Bits of one word that are written together.
+  // Masks of bits in one word that are written together.
   uint32_t acknowledges = BitSignal::masks({open, mirrored, plcOwns});
   uint32_t position =
       BitSignal::masks({inPosition, alarm, referenced, referenceEnd, atReference[0], atReference[1], atReference[2],
@@ -62,15 +62,14 @@ struct AxisParameters {
   ParameterPlace syncMaster{2101}, syncConfig{2102}, exchangeMaster{2104}, superMaster{2107}, superConfig{2108};
 };
 
-// The axes of the machine: positions, motions on the commands of MOVCMND (man. 6.15), by hand (jog, increments, hand
-// wheels, reference point) and for part programs, and the signals AN_…, AP_… (man. 7.13). Motions have no ramps: an
-// axis moves with its speed or is at rest. Positions are in the unit of the machine (mm, degrees), speeds in units per
-// minute.
+// The axes of the machine: positions, motions by MOVCMND commands (man. 6.15), by hand (jog, increments, handwheels,
+// reference point) and for part programs, and the signals AN_…, AP_… (man. 7.13). Motions have no ramps: an axis moves
+// at its speed or is at rest. Positions are in the unit of the machine (mm, degrees), speeds in units per minute.
 //
-// A machine position is that of the command; the encoder follows by kLag of the velocity.
+// A machine position is the commanded one; the encoder lags by kLag times the velocity.
 
-inline constexpr double kLag = 0.02;           // s: by which the measured position lags the command
-inline constexpr double kPulsesPerUnit = 1000; // of an axis' encoder
+inline constexpr double kLag = 0.02;           // s: time by which the measured position lags the command
+inline constexpr double kPulsesPerUnit = 1000; // of an axis encoder
 inline constexpr int32_t kHandwheels = 4;
 
 struct AxisCommand {
@@ -78,10 +77,10 @@ struct AxisCommand {
   Kind kind = Kind::None;
   bool rapid = false;
   bool perRevolution = false;
-  bool machine = false;     // `distance` is a machine position; else in the current coordinate system
+  bool machine = false;     // `distance` is a machine position; otherwise in the current coordinate system
   bool toReference = false; // ends with AN_RPE=1
-  double distance = 0;      // target, way, seconds or revolutions
-  double speed = 0;         // per minute or revolution; 0 with Jog: by N0316
+  double distance = 0;      // target, distance, seconds or revolutions
+  double speed = 0;         // per minute or revolution; 0 with Jog: from N0316
 };
 
 class Axes final : public Topic {
@@ -98,12 +97,12 @@ public:
   // The channel that the axis is assigned to, from 0.
   uint32_t channelOf(uint32_t axis) const;
 
-  // MOVCMND. Refused: FL_ER (l.3118-3124); Full: the single-block buffer holds a command.
+  // MOVCMND. Refused: FL_ER (l.3118-3124); Full: the single-block buffer contains a command.
   enum class Load : uint8_t { Accepted, Full, Refused };
   Load load(int64_t axis, int64_t code, double speed, double distance);
 
-  // For part programs: an absolute machine position; `perMinute` 0 is rapid traverse. Under way until done, with the
-  // overrides, holds and disables of its channel and axis.
+  // For part programs: moves to an absolute machine position, subject to the overrides, holds and disables of its
+  // channel and axis; `perMinute` 0 is rapid traverse.
   void moveTo(uint32_t axis, double target, double perMinute);
   bool moving(uint32_t axis) const { return axes_[axis].program.kind != AxisCommand::Kind::None; }
   void setProgramHold(uint32_t channel, bool hold) { programHold_[channel] = hold; }
@@ -131,12 +130,12 @@ private:
     double position = 0;
     double zeroPoint = 0;
     double velocity = 0;
-    double target = 0;      // of `active` or `program`, once it has been taken
-    double rest = 0;        // of a dwell: seconds or revolutions
-    double lubrication = 0; // way since the last request
-    AxisCommand active;     // of the PLC, in the interpolator
-    AxisCommand buffer;     // of the PLC
-    AxisCommand program;    // of a part program
+    double target = 0;      // of `active` or `program`, once execution has begun
+    double rest = 0;        // remaining dwell: seconds or revolutions
+    double lubrication = 0; // distance since the last request
+    AxisCommand active;     // PLC command in the interpolator
+    AxisCommand buffer;     // PLC command in the buffer
+    AxisCommand program;    // command of a part program
     double lockedAt = 0;    // measured position under axis lock
     double steps = 0;       // increments and pulses still to move
     bool referenced = false;
@@ -165,7 +164,7 @@ private:
   bool rotary(uint32_t axis) const;
   void name(std::string_view names);
 
-  // Requests and acknowledgements, positions as signals; once a PLC cycle
+  // Once per PLC cycle: requests and acknowledgements, positions as signals
   void acknowledge(uint32_t axis);
   struct Coupling {
     const BitSignal &request, &slave, &master;
@@ -203,15 +202,15 @@ private:
 
   std::array<Axis, nc::nct::kAxes> axes_{};
   std::array<bool, nc::nct::kChannels> programHold_{};
-  std::array<int32_t, kHandwheels> pulses_{}; // turned since the last time slice
-  std::array<int32_t, kHandwheels> turned_{}; // HWMOVE of this one
+  std::array<int32_t, kHandwheels> pulses_{}; // since the last time slice
+  std::array<int32_t, kHandwheels> turned_{}; // HWMOVE of this time slice
   double rapid_ = 10000;                      // units/min
-  double jog_ = 1000;                         // units/min, where N0316 does not take the table
+  double jog_ = 1000;                         // units/min, if N0316 does not select the table
   bool absolute_ = true;                      // encoders
   AxisSignals signals_;
   AxisParameters parameters_;
-  uint32_t assigned_ = 0; // a bit each; by the parameters of `revision_`, as the next
-  uint32_t switches_ = 0; // those that have an axis
+  uint32_t assigned_ = 0; // one bit each; valid for `revision_`, like switches_
+  uint32_t switches_ = 0; // switches that have an axis
   uint32_t revision_ = 0;
   std::vector<ParameterPlace> switchAxis_, switchLow_, switchHigh_; // N1101…, N1133…, N1165…
 };

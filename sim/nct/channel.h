@@ -1,8 +1,8 @@
-// One channel of the simulated NCT control (man. 7.15): its mode and the conditions of the operator, start and stop,
-// and the execution of part programs: automatic mode, MDI mode, and single blocks in the manual modes. It works once in
-// a PLC cycle, before it.
+// One channel of the simulated NCT control (man. 7.15): its mode and the operator's conditions, start and stop, and the
+// execution of part programs: automatic mode, MDI mode, and single blocks in the manual modes. It works once per PLC
+// cycle, before the PLC.
 //
-// A block is done when its motion has ended and CP_FIN=1, which is looked at one PLC cycle after the strobes.
+// A block is done when its motion has ended and CP_FIN=1, which is checked one PLC cycle after the strobes.
 #pragma once
 #include "sim/nct/channel_functions.h"
 #include "sim/nct/channel_motion.h"
@@ -25,33 +25,33 @@ public:
 
   bool running() const { return start_ || stop_; }
   bool busy() const { return running() || interrupted_; }
-  // The synchronisation M code that the channel waits at; negative: none. Set free by `release`.
+  // The synchronisation M code for which the channel waits; negative: none. `release` ends the wait.
   int32_t waiting() const { return run().waiting; }
   void release() { run().waiting = -1; }
   bool waitsForOthers() const;
 
-  // "" or what is wrong.
-  std::string enter(std::string_view blocks); // MDI mode, or a single block in a manual mode
+  // These functions return "", or the error.
+  std::string enter(std::string_view blocks); // for MDI mode, or a single block in a manual mode
   std::string check(const ChannelProgram& program) const;
   void forgetInterruption(); // another program has been selected
   void setTurning(bool turning) { turning_ = turning; }
 
-  uint32_t blocksAhead() const;                   // of the program under way: the records in its buffer
-  uint32_t sequence() const { return sequence_; } // N of the block under way
-  int32_t parts = 0;                              // machined
+  uint32_t blocksAhead() const;                   // of the program in progress: the records in its buffer
+  uint32_t sequence() const { return sequence_; } // N of the block in progress
+  int32_t parts = 0;                              // number of parts machined
   int32_t partsWanted = 0;
 
 private:
-  // A program under way. Automatic mode keeps its own while it is interrupted.
+  // A program in progress. Automatic mode keeps its own while it is interrupted.
   struct Run {
     explicit Run(ChannelMotion motionOfChannel) : motion(motionOfChannel) {}
     ChannelMotion motion;
     uint32_t next = 0; // block
     BlockFunctions functions;
     uint32_t issued = 0; // mask of functions
-    uint32_t open = 0;   // of them not acknowledged when the program was interrupted
+    uint32_t open = 0;   // functions not acknowledged when the program was interrupted
     int32_t waiting = -1;
-    bool active = false; // a block is under way
+    bool active = false; // a block is in progress
     bool stopAfter = false;
     bool endAfter = false;
   };
@@ -66,7 +66,7 @@ private:
   bool locked() const { return on(0) || on(1); } // test, machine lock
   bool functionsLocked() const { return locked() || on(3); }
 
-  // By the words of its requests, that of CP_START and that of CP_SGLBK.
+  // Evaluate the words of the requests: `asked` has CP_START, `options` has CP_SGLBK.
   void followMachine();
   void followModes(uint32_t asked);
   void changeMode(Mode mode);
@@ -76,7 +76,7 @@ private:
   void followStart(uint32_t asked);
   const ChannelProgram* program() const;
   void goOn();  // after an interruption
-  void leave(); // what runs, by a change of the mode or an emergency stop
+  void leave(); // ends the running program because of a change of mode or an emergency stop
   void clear(Run& run);
 
   void advance();
@@ -102,17 +102,17 @@ private:
   Run otherRun_;
 
   const ChannelProgram* selected_ = nullptr;
-  ChannelProgram entered_; // its memory stays until the next one is entered
+  ChannelProgram entered_; // its memory is kept until the next one is entered
   bool hasEntered_ = false;
   Mode mode_ = Mode::Jog;
   Mode wanted_ = Mode::Jog;
   std::array<bool, kToggles> toggles_{};
-  uint32_t askedBefore_ = 0, optionsBefore_ = 0; // words of requests
+  uint32_t askedBefore_ = 0, optionsBefore_ = 0; // words of requests in the previous cycle
   bool machineOn_ = false;
   bool start_ = false, stop_ = false, interrupted_ = false;
   bool restart_ = false, return_ = false;
   bool turning_ = false; // a lathe channel
-  bool fresh_ = false;   // strobes of this cycle, which the program has not seen
+  bool fresh_ = false;   // the program has not yet seen the strobes of this cycle
   uint32_t sequence_ = 0;
 };
 

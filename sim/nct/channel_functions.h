@@ -1,4 +1,4 @@
-// Part programs of the simulated NCT control: the text of `event program` and `event mdi`, read into blocks.
+// Part programs of the simulated NCT control: parses the text of `event program` and `event mdi` into blocks.
 //
 //   block := ["/" [1-8]] { word | assignment | jump | "(" comment ")" }
 //   word  := letter value | "S" digits "=" value
@@ -24,7 +24,7 @@ inline constexpr uint32_t kCodesOfABlock = 8; // M codes, l.9470
 
 struct ProgramWord {
   char letter = 0;
-  uint32_t spindle = 0; // of S3=1000; else 0
+  uint32_t spindle = 0; // for S3=1000; otherwise 0
   ProgramValue value;
 };
 
@@ -56,14 +56,14 @@ struct ChannelProgram {
   std::vector<ProgramBlock> blocks;
 };
 
-// "" and the program, or what is wrong with the text.
+// Returns "" and the program, or the error in the text.
 std::string readChannelProgram(std::string_view text, ChannelProgram& program);
 
-// The signals and parameters that the channels work with (man. 7.15), found once.
+// The signals and parameters of the channels (man. 7.15), looked up once.
 
-// In the order of Mode.
+// Modes, in the order of Mode.
 inline constexpr uint32_t kModes = 7;
-// Conditions that a request inverts (l.9800-9905), in the order of Toggle.
+// Conditions that a request toggles (l.9800-9905), in the order of Toggle.
 inline constexpr uint32_t kToggles = 4;
 
 struct ChannelSignals {
@@ -102,7 +102,7 @@ struct ChannelSignals {
   RealSignal feedOverride{"CP_FOVER"};
   WordSignal machiningSpindle{"CP_SINP"}, surfaceSpindle{"CN_CTSPN"}, speedLimit{"CN_NMAX"};
 
-  // Bits of one word that are looked at or written together.
+  // Masks of bits in one word that are read or written together.
   uint32_t modeRequests = BitSignal::masks(modeRequest), toggleRequests = BitSignal::masks(toggleRequest),
            conditions = BitSignal::masks(toolMode) | BitSignal::masks({wheelOffset, misaligned});
   uint32_t pathBits = BitSignal::masks({feedRequest, overrideDisabled, thread, threadCycle, tapping, rigidTapping,
@@ -123,10 +123,10 @@ struct ChannelParameters {
   ParameterPlace axisName{100}, reference1{200};
 };
 
-// M, S, T and auxiliary functions of a block on their way from the channel handler to the PLC (man. l.9440-9560,
-// 10500-10772), by the control's handshake; with S goes the range of the spindle, with T the place of the tool.
+// Transfers the M, S, T and auxiliary functions of a block from the channel handler to the PLC (man. l.9440-9560,
+// 10500-10772) with the control's handshake; S includes the range of the spindle, T the place of the tool.
 
-// What one block hands over; a function that is not in the block is negative.
+// The functions of one block; a function that is not in the block is negative.
 struct BlockFunctions {
   std::array<int32_t, kCodesOfABlock> codes{};
   int32_t speed = -1;
@@ -146,16 +146,16 @@ class ChannelFunctions {
 public:
   ChannelFunctions(Links& links, uint32_t channel) : links_(links), channel_(channel), handshake_(channel) {}
 
-  // One bit a line of the handshake.
+  // Masks have one bit per line of the handshake.
   static constexpr uint32_t kSpeed = 1 << nc::NctFunctions::kSpeed;
   static constexpr uint32_t kTool = 1 << nc::NctFunctions::kTool;
   static uint32_t mask(const BlockFunctions& functions);
 
-  // Codes and strobes of those in the mask.
+  // Sets codes and strobes of the functions in the mask.
   void issue(const BlockFunctions& functions, uint32_t mask, bool turning);
-  // At the beginning of a PLC cycle: the strobes of the last one fall.
+  // At the beginning of a PLC cycle: drops the strobes of the previous one.
   void dropStrobes() { handshake_.dropStrobes(links_.signals); }
-  // Those whose acknowledge is 0.
+  // The functions in the mask whose acknowledge is 0.
   uint32_t unacknowledged(uint32_t mask) const;
 
 private:

@@ -1,5 +1,5 @@
-// What a channel's part program does besides handing over functions: modal codes, motions of its axes, dwells, and the
-// signals that report them (man. l.9578-9730). Axes of a block start and end together; circles are chords.
+// The part of a channel's part program besides the functions: modal codes, motions of its axes, dwells, and the signals
+// that report them (man. l.9578-9730). All axes of a block start and end together; circles are chords.
 #pragma once
 #include <array>
 
@@ -14,34 +14,35 @@ public:
   ChannelMotion(Links& links, uint32_t channel, const ChannelSignals& signals, const ChannelParameters& parameters)
       : links_(links), channel_(channel), signals_(signals), parameters_(parameters) {}
 
-  // Modal codes as after power-on: G0, G90, G94, G97; G20 and G21 stay (`powerOn`: G21).
+  // Resets modal codes to those after power-on: G0, G90, G94, G97; G20 and G21 stay (`powerOn`: G21).
   void reset(bool powerOn);
-  // A program begins: the axes are where they are.
+  // A program begins at the current positions of the axes.
   void begin();
-  // Motion and dwell of a block. `locked`: the axes do not move, but the time passes (machine lock, test).
+  // Prepares motion and dwell of a block. `locked`: the axes do not move, but the time passes (machine lock, test).
   void prepare(const ProgramBlock& block, bool locked);
   bool done() const { return next_ >= count_ && dwellUs_ <= 0 && !checking_; }
 
-  // Before a PLC cycle, while the program runs; writes the signals of the block under way.
+  // To be called before a PLC cycle; continues the block while the program runs, and writes its signals.
   void cycle(bool running, int64_t us);
-  // Before a time slice: holds the axes that may not move.
+  // To be called before a time slice: holds the axes that must not move.
   void timeSlice(bool running) const;
 
-  // The block's motion ends; `resume` continues it, from where it began or from where it was interrupted.
+  // `interrupt` ends the block's motion; `resume` continues it, after a return to its start or to the point of
+  // interruption.
   void interrupt();
   void resume(bool toStart, bool toInterruption);
   void cancel();
 
   double value(const ProgramValue& value) const;
-  uint32_t spindle() const; // that machines, from 0: CP_SINP, else N0604
+  uint32_t spindle() const; // machining spindle, from 0: CP_SINP, otherwise N0604
   bool overrideDisabled() const { return overrideOff_ || (under() & kThread) != 0 || (under() & kTap) != 0; }
   bool moving() const { return next_ < count_; }
-  bool machining() const;                           // with a feed that may move
-  int32_t axisOf(char letter) const;                // of the channel, from 0; negative: none
+  bool machining() const;                           // moving at a feed that is not held
+  int32_t axisOf(char letter) const;                // axis of the channel, from 0; negative: none
   bool takesSpeed(const ProgramBlock& block) const; // S is the surface speed of G96 or the limit of G92
 
 private:
-  // Of a waypoint.
+  // Flags of a waypoint.
   static constexpr uint32_t kFeed = 1 << 0;
   static constexpr uint32_t kThread = 1 << 1;
   static constexpr uint32_t kThreadCycle = 1 << 2;
@@ -59,7 +60,7 @@ private:
   };
   static constexpr uint32_t kWaypoints = 6;
 
-  struct Words { // of one block
+  struct Words { // words of one block
     Position target{};
     uint32_t axes = 0;
     bool machine = false, reference = false, skip = false, exact = false, dwell = false;
@@ -101,7 +102,7 @@ private:
   bool started_ = false; // the axes have their commands
   bool locked_ = false;
   bool checking_ = false; // CN_POSCHK
-  double restUs_ = 0;     // of a locked motion
+  double restUs_ = 0;     // remaining time of a locked motion
   int64_t dwellUs_ = 0;
 };
 

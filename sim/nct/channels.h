@@ -1,5 +1,5 @@
-// The channels of the control: part programs in memory, which one is selected where, and the channels that execute them
-// (channel.h), with their synchronisation by M codes (man. l.9570-9576).
+// The channels of the control: the part programs in memory, the selected program of each channel, and the channels that
+// execute them (channel.h), with their synchronisation by M codes (man. l.9570-9576).
 #pragma once
 #include <array>
 #include <list>
@@ -13,7 +13,7 @@ class Channels final : public Topic {
 public:
   explicit Channels(Links& links);
 
-  // Channels count from 0. A program runs or is interrupted: CN_START, CN_STOP or CN_INTD.
+  // Channels count from 0. Whether a program runs or is interrupted: CN_START, CN_STOP or CN_INTD.
   bool busy(uint32_t channel) const { return channels_[channel]->busy(); }
   uint32_t blocksAhead(uint32_t channel) const { return channels_[channel]->blocksAhead(); }
   bool hasProgram(int32_t number) const { return find(number) != nullptr; }
@@ -42,12 +42,12 @@ private:
   ChannelSignals signals_;
   ChannelParameters parameters_;
   std::vector<ParameterPlace> groupFirst_, groupLast_; // N1341…, N1357…
-  std::list<ChannelProgram> programs_;                 // in memory; a channel may be executing one
+  std::list<ChannelProgram> programs_;                 // in memory; a list, because a channel may be executing one
   std::array<int32_t, nc::nct::kChannels> selected_{};
   std::array<std::unique_ptr<Channel>, nc::nct::kChannels> channels_;
-  int64_t cycleUs_ = 0; // time of the last cycle
+  int64_t cycleUs_ = 0; // clock at the last cycle
   BitSignal resetKey_{"NB_RESET"};
-  bool resetPressed_ = false; // by an event: the key shows for one cycle
+  bool resetPressed_ = false; // by an event: the key is on for one cycle
   bool pulsing_ = false;
   bool resetBefore_ = false;
 };

@@ -1,5 +1,5 @@
-// The checksum of the control's non-volatile arrays (execution code 4, man. 6.19, 6.20): cheap, because every change
-// makes it anew. Files on disk have a CRC of their own (rtlib/retain/retain.h).
+// The checksum of the control's non-volatile arrays (execution code 4, man. 6.19, 6.20). It is cheap, because every
+// change recomputes it. Files on disk have their own CRC (rtlib/retain/retain.h).
 #pragma once
 #include <cstdint>
 #include <cstring>

@@ -1,5 +1,5 @@
-// The drives: data for the display that the program hands over with MW 81 (man. 6.24), what SCP's NCTDriveMess reads,
-// and the status signals DN_… of the drives that an axis or a spindle has (man. 7.7).
+// The drives: display data that the program writes with MW 81 (man. 6.24), the values of SCP's NCTDriveMess, and the
+// status signals DN_… of drives that belong to an axis or a spindle (man. 7.7).
 #pragma once
 #include <array>
 #include <vector>
@@ -18,7 +18,7 @@ class Drives final : public Topic {
 public:
   using Topic::Topic;
 
-  // `drive` from 1. What the program handed over, or else what the drive itself says.
+  // `drive` counts from 1. Returns the value that the program has written, otherwise that of the drive itself.
   double datum(uint32_t drive, uint32_t datum) const;
 
   bool serves(bool write, uint32_t function) const override;
@@ -43,7 +43,7 @@ private:
   double speed(uint32_t drive) const;
 
   std::array<Drive, kDrives> drives_{};
-  std::array<bool, kDrives> addressed_{}; // by the parameters of `revision_`
+  std::array<bool, kDrives> addressed_{}; // valid for `revision_`
   uint32_t revision_ = 0;
   SeenSignals seen_{WordSignal("DP_CTRL"), WordSignal("DN_STAT"), WordSignal("DN_ERR")};
   ParameterPlace axisAddress_{501};
@@ -61,10 +61,9 @@ private:
   uint32_t written_ = BitSignal::masks({enabled_, ready_, activeTable1_, activeTable2_});
 };
 
-// The machine around the links, as far as its inputs only repeat outputs (or other inputs): a valve whose switch
-// answers after its time.
+// The machine wiring: inputs that follow outputs or other inputs, such as a valve whose switch responds after a delay.
 //   config follow.INP001.03 OUT010.00          the input is the output
-//   config follow.INP001.04 /OUT010.00@100ms   its opposite, 100 ms later; shorter changes do not come through
+//   config follow.INP001.04 /OUT010.00@100ms   its inverse, 100 ms later; shorter pulses are suppressed
 
 class Wiring final : public Topic {
 public:

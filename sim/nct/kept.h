@@ -1,5 +1,5 @@
-// The part of the simulated NC that outlives its power: every topic names its non-volatile fields once, in `keep`, and
-// a Kept measures, saves or restores them. The image has a fixed size, so that saving allocates nothing.
+// The non-volatile state of the simulated NC: each topic names its fields once, in `keep`, and a Kept measures, saves
+// or restores them. The image has a fixed size, so that saving allocates nothing.
 #pragma once
 #include <cstdint>
 #include <cstring>
@@ -14,7 +14,7 @@ public:
 
   static Kept measure() { return Kept(Mode::Measure, {}); }
   static Kept save(std::span<uint8_t> image) { return Kept(Mode::Save, image); }
-  // Nothing is written to `image`.
+  // Does not write to `image`.
   static Kept restore(std::span<const uint8_t> image) {
     return Kept(Mode::Restore, {const_cast<uint8_t*>(image.data()), image.size()});
   }
@@ -27,7 +27,7 @@ public:
     static_assert(std::is_trivially_copyable_v<T>);
     bytes(&value, sizeof value);
   }
-  // Elements of a table whose size is that of the configuration.
+  // The elements of a table whose size is configured.
   template <class T>
   void values(std::span<T> values) {
     static_assert(std::is_trivially_copyable_v<T>);

@@ -1,5 +1,5 @@
-// The switch of the machine: P_MONREQ switches the MON output on unless N_MONDIS disables it, N_MONST is its state
-// (man. l.8014-8040). N_MONDIS is the hardware's.
+// The machine's main switch: P_MONREQ switches the output MON on unless N_MONDIS disables it; N_MONST is its state
+// (man. l.8014-8040). N_MONDIS is set by the hardware.
 #pragma once
 #include "sim/nct/topic.h"
 

@@ -1,4 +1,5 @@
-// The other side of the simulated network: a device that scenarios open, close and make send (`event device …`).
+// The other side of the simulated network: a device that scenarios open and close and through which they send (`event
+// device …`).
 #pragma once
 #include <array>
 #include <string>
@@ -12,17 +13,17 @@ namespace rung::sim::nct {
 
 class NetworkDevice {
 public:
-  // The device's side of the wire, joined with the control's.
+  // `line` is the device's side, joined with the control's.
   explicit NetworkDevice(MemoryLine& line) : line_(line) {}
 
-  // Keys of the event: open=udp|server|client with port=N; send=WORDS with w0=V …; close=1. `control` is the port of
-  // the control's connection, 0: it has none; `open` without a port takes it.
+  // Handles the keys of the event: open=udp|server|client with port=N; send=WORDS with w0=V …; close=1. `control` is
+  // the port of the control's connection, 0 if it has none; `open` without a port uses it. Returns "", or the error.
   std::string event(const std::vector<NcArgument>& keys, uint16_t control);
   void close() { line_.close(); }
-  // Takes what the control has sent.
+  // Receives data from the control.
   void poll();
 
-  // The last message that came: its length, its words.
+  // Length and words of the last received message.
   uint32_t receivedWords() const { return static_cast<uint32_t>(messageBytes_ / 4); }
   std::optional<double> receivedWord(uint32_t number) const;
   bool connected() const { return line_.isOpen(); }
@@ -32,17 +33,17 @@ private:
   std::string send(const std::vector<NcArgument>& keys, uint16_t control);
 
   MemoryLine& line_;
-  bool udp_ = false; // what was opened last
+  bool udp_ = false; // type of the last connection
   std::array<uint8_t, kMostNetworkBytes> message_{};
   size_t messageBytes_ = 0;
 };
 
 // The network of the PLC program: MW 60, 61, MR 62, MW 63 (man. 6.22), UDP and TCP.
 //
-// `config network isolated` (default): a network in memory, of the control and the simulated device alone; whatever
-// target a program names is the device. `config network loopback`: the control is 127.0.0.1 and reaches other programs
-// on 127.0.0.0/8 by their addresses and ports, through real sockets that are only looked at between two scans. They
-// never wait, but for 100 ms when a connection is opened on the virtual clock.
+// `config network isolated` (default): a network in memory that consists of the control and the simulated device; every
+// target address of a program is the device. `config network loopback`: the control is 127.0.0.1 and reaches other
+// programs on 127.0.0.0/8 by their addresses and ports, through real sockets that are only accessed between two scans.
+// They never wait, except up to 100 ms when a connection is opened on the virtual clock.
 
 class Network final : public Topic {
 public:
@@ -78,14 +79,14 @@ private:
   MemoryLine control_; // the two sides of the network in memory
   MemoryLine remote_;
   SocketLine sockets_;
-  Line* line_ = &control_; // where the program's connection leads
+  Line* line_ = &control_; // destination of the program's connection
 
   Protocol protocol_ = Protocol::None; // of the connection
   bool connecting_ = false;
   int64_t connectingSince_ = 0;
   uint32_t target_ = 0; // as the program wrote it
   uint16_t port_ = 0;
-  Buffer unsent_{}; // of a stream that had no room
+  Buffer unsent_{}; // bytes of a stream for which there was no room
   size_t unsentBytes_ = 0;
   size_t unsentAt_ = 0;
   mutable NetworkDevice device_{remote_};

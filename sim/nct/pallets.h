@@ -1,8 +1,8 @@
 // The pallet management table (man. 6.27.1, l.5305-5430): magazine 1 is the pool, 10 the working space, 11 the
-// loading-unloading point; 0 is virtual: data of pallets that left the machine. A place holds a pallet if it has an
-// identifier; the status belongs to the place.
+// loading-unloading point; 0 is virtual, for the data of pallets that have left the machine. A place contains a pallet
+// if it has an identifier; the status belongs to the place.
 //
-// Invariant: an identifier is in one place at most.
+// Invariant: an identifier is in at most one place.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -25,7 +25,7 @@ inline constexpr PalletColumn kPalletPriority = 3;
 inline constexpr PalletColumn kPalletExecuted = 4;
 inline constexpr PalletColumn kPalletAssigned = 5;
 inline constexpr PalletColumn kPalletPrograms = 6;
-inline constexpr PalletColumn kPalletCustom1 = 7; // 8 bits; then double
+inline constexpr PalletColumn kPalletCustom1 = 7; // 8 bits; the next ones are doubles
 inline constexpr PalletColumn kPalletColumns = 10;
 
 inline constexpr uint32_t kPalletRows = 128; // of all magazines, l.5339
@@ -44,7 +44,7 @@ inline constexpr uint32_t kLoadingPoint = 11;
 
 constexpr bool isRealPalletColumn(PalletColumn column) { return column > kPalletCustom1; }
 constexpr uint32_t palletColumnWords(PalletColumn column) { return isRealPalletColumn(column) ? 2 : 1; }
-// ID, STATUS, PRIORITY, EXECUTED, ASSIGNED, CUSTOM1-4; 0: none such.
+// ID, STATUS, PRIORITY, EXECUTED, ASSIGNED, CUSTOM1-4; 0: no such column.
 PalletColumn palletColumn(std::string_view name);
 
 struct PalletRow {
@@ -69,7 +69,7 @@ struct PalletPlan {
   bool loadingPoint = false;
   uint32_t pool = 0;
 
-  // Places 1 to places(magazine).
+  // The places of a magazine are 1 to places(magazine).
   uint32_t places(uint32_t magazine) const;
   bool hasMagazine(uint32_t magazine) const { return places(magazine) != 0; }
   bool has(PalletPlace place) const { return place.place >= 1 && place.place <= places(place.magazine); }
@@ -77,11 +77,11 @@ struct PalletPlan {
 
 class PalletTable {
 public:
-  // Of a place of the plan.
+  // The row of a place in the plan.
   PalletRow& row(PalletPlace place);
   const PalletRow& row(PalletPlace place) const;
 
-  // In the places of the plan.
+  // Searches the places in the plan.
   std::optional<PalletPlace> find(const PalletPlan& plan, int32_t identifier) const;
   std::optional<PalletPlace> freeVirtual(const PalletPlan& plan) const;
 
@@ -91,15 +91,15 @@ public:
 private:
   uint32_t index(PalletPlace place) const;
 
-  // Fixed places, whatever the plan: working space, loading point, pool, virtual magazine.
+  // Rows are fixed and independent of the plan: working space, loading point, pool, virtual magazine.
   static constexpr uint32_t kFirstPool = 2;
   static constexpr uint32_t kFirstVirtual = kFirstPool + kPalletRows;
   std::array<PalletRow, kFirstVirtual + kPalletRows> rows_;
 };
 
 // Pallet management of the simulated NCT control (man. 6.27): the table, the services MW 300 to MR 309 and MW 41, and
-// what the operator and the configuration write into the table. Parameters: N3300 #0 PAL, MNT (printed as #1, l.5311,
-// and as #2, l.5335: either bit), #3 PRI; N3301 length of the pool; N3302 number of custom columns.
+// changes of the table by the operator and the configuration. Parameters: N3300 #0 PAL, MNT (printed as #1, l.5311, and
+// as #2, l.5335: either bit), #3 PRI; N3301 length of the pool; N3302 number of custom columns.
 
 class PalletManagement final : public Topic {
 public:
@@ -123,7 +123,7 @@ public:
   PalletPlan plan() const;
 
 private:
-  struct Setting { // of the configuration, again at every cold start
+  struct Setting { // from the configuration, applied at every cold start
     std::string name;
     double value;
   };
@@ -141,11 +141,12 @@ private:
   int32_t search(Block& block);
   int32_t readColumn(Block& block);
   int32_t selectProgram(Block& block);
-  // Columns of a record of so many words (from the identifier on); 0: code 2.
+  // Number of columns in a record of `words` words (from the identifier on); 0: code 2.
   uint32_t columnsOfRecord(int64_t words) const;
   int32_t checkWord(PalletColumn column, int32_t value, PalletPlace place) const;
   int32_t writePrograms(Block& block, PalletRow& row);
-  // The identifier of a pallet that the virtual magazine knows brings its data, and takes the old ones there (l.5525).
+  // Sets the identifier of a place: data of a pallet that the virtual magazine contains are restored, and the old data
+  // are moved there (l.5525).
   void identify(PalletPlace place, int32_t identifier);
   bool matches(PalletColumn column, int32_t value, const PalletRow& row) const;
 

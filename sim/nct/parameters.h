@@ -1,5 +1,5 @@
 // The parameters of the control: MR 31, 32, MW 34, 35 (man. 6.20) and the PLC constants in the NC area (man. 7.11).
-// Other topics read what concerns them. A warm start keeps what the program wrote.
+// Other topics read the parameters that concern them. A warm start keeps values that the program wrote.
 #pragma once
 #include <array>
 #include <vector>
@@ -9,14 +9,14 @@
 
 namespace rung::sim::nct {
 
-// A parameter that a topic reads in the scan, found once.
+// A parameter that a topic reads in the scan, looked up once.
 class ParameterPlace {
 public:
   explicit ParameterPlace(uint32_t number);
 
 private:
   friend class Parameters;
-  uint32_t first_ = 0; // in Parameters::values_
+  uint32_t first_ = 0; // index into Parameters::values_
   uint32_t count_ = 0;
 };
 
@@ -24,7 +24,8 @@ class Parameters final : public Topic {
 public:
   explicit Parameters(Links& links);
 
-  // `index` counts axes, spindles, channels … from 0; global parameters have index 0 alone. Outside the table: 0.
+  // `index` counts axes, spindles, channels … from 0; global parameters have only index 0. Outside the table the value
+  // is 0.
   int32_t dword(const ParameterPlace& place, uint32_t index = 0) const {
     return index < place.count_ ? static_cast<int32_t>(values_[place.first_ + index]) : 0;
   }
@@ -34,9 +35,9 @@ public:
   double real(const ParameterPlace& place, uint32_t index = 0) const {
     return index < place.count_ ? values_[place.first_ + index] : 0;
   }
-  // A new number after each change: what was computed from parameters has to be computed again then.
+  // Increases with each change: values computed from parameters must then be computed again.
   uint32_t revision() const { return revision_; }
-  // Against Topic::config alone: what a topic finds out while it is configured (the axes that exist).
+  // Only for Topic::config: sets values that a topic determines while it is configured (the axes that exist).
   void setInitial(uint32_t number, uint32_t index, double value);
 
   bool serves(bool write, uint32_t function) const override;
@@ -55,8 +56,8 @@ public:
 private:
   struct Found {
     const nc::nct::ParameterRow* row = nullptr;
-    uint32_t first = 0; // in values_
-    uint32_t count = 0; // from the index on
+    uint32_t first = 0; // index into values_
+    uint32_t count = 0; // number of values from the index on
     int32_t code = 0;   // execution code; 0: found
   };
   Found find(int32_t number, int32_t index) const;
@@ -67,27 +68,27 @@ private:
 
   // A double holds every value of a double word or of bits exactly.
   std::vector<double> values_;
-  std::vector<double> initial_;         // as delivered, with the configuration
-  uint32_t checksum_ = 0;               // of values_, made anew by every change
+  std::vector<double> initial_;         // as delivered, with the configuration applied
+  uint32_t checksum_ = 0;               // of values_; recomputed after every change
   uint32_t revision_ = 1;               // initially unseen by all users
   std::vector<BitSignal> constantBits_; // N_P00 to N_P77
   WordSignal constantWords_{"N_PDW1"};
   RealSignal constantReals_{"N_PDB1"};
 };
 
-// The common macro variables of the channels, #100-#499 volatile, #500-#999 kept (man. 6.16), and the variables that
-// are signals: #1000-#1035 from the PLC, #1100-#1135 to it (man. 7.15).
+// The common macro variables of the channels, #100-#499 volatile, #500-#999 non-volatile (man. 6.16), and the variables
+// that are signals: #1000-#1035 from the PLC, #1100-#1135 to it (man. 7.15).
 
 class Macros final : public Topic {
 public:
   using Topic::Topic;
 
-  // MACR and MACW: variables 100 to 999, channels from 0. Nothing, false: wrong variable or channel. That P_MAC forbids
-  // writing (l.8121) is the instruction's own check: it sees the bit of this very cycle.
+  // MACR and MACW: variables 100 to 999, channels from 0. Nothing, false: wrong variable or channel. The instruction
+  // itself checks that P_MAC permits writing (l.8121), because it must use the bit of the current cycle.
   std::optional<double> read(int64_t variable, int64_t channel) const;
   bool write(int64_t variable, int64_t channel, double value);
 
-  // As a part program sees them: #100-#999, #1000-#1035 (read only), #1100-#1135.
+  // Variables for part programs: #100-#999, #1000-#1035 (read only), #1100-#1135.
   std::optional<double> programRead(uint32_t variable, uint32_t channel) const;
   bool programWrite(uint32_t variable, uint32_t channel, double value);
 
@@ -115,7 +116,7 @@ private:
   RealSignal toPlc_[3] = {RealSignal("CN_1133"), RealSignal("CN_1134"), RealSignal("CN_1135")};
 };
 
-// The 1024 non-volatile double words of controls that do not keep PLCNVRAM by themselves: MR 10 and MW 11 (man. 6.19).
+// The 1024 non-volatile double words of controls that do not retain PLCNVRAM themselves: MR 10 and MW 11 (man. 6.19).
 
 inline constexpr int32_t kNvramWords = 1024;
 
@@ -140,7 +141,7 @@ private:
   uint32_t checksum_ = 0;
 };
 
-// MW 40: a part program, by its number, for execution in automatic mode (man. 6.21).
+// MW 40: selects a part program by its number for automatic mode (man. 6.21).
 
 class ProgramSelection final : public Topic {
 public:

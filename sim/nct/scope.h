@@ -11,7 +11,7 @@ class Scope {
 public:
   explicit Scope(const Links& links);
 
-  // `symbol` is an index in scopeSymbols(). Nothing: there is no such symbol, or its parameters are outside its limits.
+  // `symbol` is an index into scopeSymbols(). Nothing: there is no such symbol, or its parameters are out of range.
   std::optional<double> read(int64_t symbol, int64_t parameter1, int64_t parameter2) const;
 
   using Read = double (*)(const Links& links, uint32_t parameter1, uint32_t parameter2);

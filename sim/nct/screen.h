@@ -23,13 +23,13 @@ public:
   void powerOn(nc::PowerOn kind) override;
 
 private:
-  bool configured_ = true; // whether the display is connected at power-on
+  bool configured_ = true; // whether the display is connected after power-on
   bool connected_ = true;
-  std::array<int32_t, 4> window_{}; // identifier, channel, parameters; 0: none was opened
+  std::array<int32_t, 4> window_{}; // identifier, channel, parameters of the last window; 0: none was opened
 };
 
-// EtherCAT mailboxes: MR 201 and MW 202 (man. 6.28), over devices that the configuration describes:
-//   config ethercat.1 coe+voe             device 1 and the protocols that it speaks: coe, soe, voe
+// EtherCAT mailboxes: MR 201 and MW 202 (man. 6.28), for devices in the configuration:
+//   config ethercat.1 coe+voe             device 1 and its protocols: coe, soe, voe
 //   config ethercat.1.coe.0x6041.0 0x237/2   an object (index, subindex): its value and its size in bytes
 //   config ethercat.2.soe.47.0 100/4      an element (IDN, drive)
 
@@ -56,15 +56,15 @@ private:
   struct Device {
     uint32_t index = 0;
     EthercatProtocols protocols;
-    bool silent = false; // answers nothing
-    uint32_t error = 0;  // answers this, if not 0
-    Buffer vendor;       // what VoE wrote last
+    bool silent = false; // does not answer
+    uint32_t error = 0;  // answers with this error, if not 0
+    Buffer vendor;       // data last written by VoE
   };
   static bool fits(int32_t protocol, int32_t amount);
   static bool speaks(const Device& device, Protocol protocol);
   Device* find(int32_t index);
   EthercatObject* find(const Device& device, Protocol protocol, uint32_t index, uint32_t sub);
-  // Data into or out of buffer_; an error code of the device, 0: done.
+  // Transfers data to or from buffer_; returns an error code of the device, 0: done.
   uint32_t exchange(bool write, Block& block, Device& device, Protocol protocol);
   uint32_t exchangeCoe(bool write, Block& block, Device& device);
   uint32_t exchangeWhole(bool write, Device& device, uint32_t index, uint32_t sub);

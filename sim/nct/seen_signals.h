@@ -1,5 +1,5 @@
-// Signals as a topic left them: while they are so, and nothing else that it goes by has changed, its work would end
-// where it is. They are compared as blocks, which costs a fraction of what going through them does.
+// The signals as a topic last left them: while they and the topic's other inputs are unchanged, its work would not
+// change anything. Comparing them as blocks is much cheaper than evaluating them.
 #pragma once
 #include <algorithm>
 #include <cstring>
@@ -12,14 +12,14 @@ namespace rung::sim::nct {
 
 class SeenSignals {
 public:
-  // All that each of them has: of 48 drives 48 words.
+  // Includes all elements of each signal: for 48 drives, 48 words.
   SeenSignals(std::initializer_list<nc::nct::WordSignal> signals) : signals_(signals) {
     size_t bytes = 0;
     for (const nc::nct::WordSignal& signal : signals_) bytes += signal.bytes();
     seen_.resize(bytes);
   }
 
-  // Allocates nothing, as the next.
+  // Allocates nothing, like `see`.
   bool areSame(const nc::nct::SignalMemory& memory) const {
     const uint8_t* seen = seen_.data();
     for (const nc::nct::WordSignal& signal : signals_) {
@@ -37,7 +37,7 @@ public:
     }
     known_ = true;
   }
-  // Something else has changed.
+  // Another input has changed.
   void forget() { known_ = false; }
 
 private:

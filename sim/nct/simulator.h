@@ -1,6 +1,6 @@
-// The simulated NCT control beside a PLC program (`config nc simulated`): it holds the topics, gives each request of MR
-// and MW to the one that serves it, between two scans, and answers MACR, MACW, SCP and MOVCMND within the cycle.
-// A new topic is a member here and an entry of topics_, in the order in which they work.
+// The simulated NCT control of a PLC program (`config nc simulated`): it owns the topics, passes each request of MR and
+// MW to the topic that serves it, between two scans, and answers MACR, MACW, SCP and MOVCMND within the cycle. A new
+// topic is a member here and an entry of topics_, in the order in which they work.
 #pragma once
 #include <array>
 #include <vector>
@@ -24,41 +24,41 @@ class Simulator {
 public:
   Simulator();
 
-  // Nothing: no topic knows it.
+  // Nothing: no topic has the key.
   Handled config(std::string_view key, std::string_view value);
   std::vector<std::string_view> events() const;
   Handled event(std::string_view name, const std::vector<NcArgument>& keys);
   std::optional<double> quantity(std::string_view name) const;
   Handled setQuantity(std::string_view name, double value);
 
-  // The program's memory has been started; `signals` are the control's.
+  // The program's memory has been initialized; `signals` are those of the control.
   void powerOn(runtime::Instance& instance, const SignalMemory& signals, nc::PowerOn kind);
-  // Another program has taken over: requests that are at work are answered to it.
+  // Another program has taken over: requests in progress are answered to it.
   void programChanged(runtime::Instance& instance, const SignalMemory& signals);
-  // Before every time slice; `cycle`: it is the first one of a PLC cycle.
+  // Called before every time slice; `cycle`: it is the first one of a PLC cycle.
   void timeSlice(runtime::Instance& instance, bool cycle);
-  // MACR, MACW, SCP, MOVCMND; false: another service.
+  // MACR, MACW, SCP, MOVCMND; returns false for other services.
   bool respond(const core::ServiceRequest& request, core::ServiceReply& reply);
-  // Takes the requests of MR and MW and answers what can be answered, oldest first; one that is still at work does not
-  // hold up the others.
+  // Takes the requests of MR and MW and answers those that can be answered, oldest first; a request in progress does
+  // not delay the others.
   void betweenScans(runtime::Instance& instance);
   void setRealTime() { links_.realTime = true; }
 
   void keep(Kept& kept);
-  // The tables of a control as it is delivered, with the configuration.
+  // Sets the tables to those of a control as delivered, with the configuration applied.
   void deliver();
 
 private:
   void attach(runtime::Instance& instance, const SignalMemory& signals);
-  // The execution code of a request; nothing: still at work.
+  // The execution code of a request; nothing: still in progress.
   std::optional<int32_t> execute(const core::ServiceRequest& request);
-  // The services of one cycle; nothing: not now.
+  // Services that are answered in the same cycle. Later: not now.
   enum class Outcome : uint8_t { Done, Refused, Later };
   Outcome answer(nc::nct::ServiceKind kind, const int64_t* args, core::ServiceReply& reply);
 
   Links makeLinks();
 
-  Links links_ = makeLinks(); // before all topics: they use it when they are made
+  Links links_ = makeLinks(); // precedes all topics, which use it in their constructors
   Parameters parameters_{links_};
   Nvram nvram_{links_};
   MachineOn machineOn_{links_};
@@ -77,16 +77,16 @@ private:
   PalletManagement pallets_{links_};
   std::vector<Topic*> topics_; // in the order in which they work
 
-  const rung_program* program_ = nullptr; // that is switched on; null: none yet
+  const rung_program* program_ = nullptr; // the program that is switched on; null: none yet
   std::span<uint8_t> blocks_;             // the space @MB
   struct Waiting {
     core::ServiceRequest request;
     int64_t sinceUs = 0;
   };
-  std::vector<Waiting> waiting_; // oldest first; room for all that can be pending
+  std::vector<Waiting> waiting_; // oldest first; room for all pending requests
   uint32_t waitingCount_ = 0;
   int64_t sliceUs_ = 0;                                 // the clock at the last time slice
-  std::array<uint32_t, nc::nct::kBlockStride> words_{}; // the block that is being worked on
+  std::array<uint32_t, nc::nct::kBlockStride> words_{}; // the block of the request in progress
 };
 
 } // namespace rung::sim::nct

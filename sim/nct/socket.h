@@ -1,5 +1,5 @@
-// Non-blocking sockets of the simulated network. They stay on the loopback: whatever address a program gives, nothing
-// leaves this machine. Errors are those of Windows Sockets.
+// Non-blocking sockets of the simulated network. They only use the loopback: nothing leaves this machine, whatever
+// address a program specifies. Errors are those of Windows Sockets.
 #pragma once
 #include "sim/nct/memory_line.h"
 
@@ -12,35 +12,35 @@ public:
   Socket(Socket&& other) noexcept;
   Socket& operator=(Socket&& other) noexcept;
 
-  // Each gives 0 or an error; then the socket is closed.
+  // Each of these functions returns 0, or an error, after which the socket is closed.
   int32_t openUdp(Endpoint own);
   int32_t listen(Endpoint own);
-  // Connects in the background: `connected` says when.
+  // Connects in the background; `connected` returns the result.
   int32_t connect(Endpoint own, Endpoint to);
   // Nothing: still connecting.
   std::optional<int32_t> connected();
-  // A connection that has come in, closed when there is none.
+  // Accepts an incoming connection; the socket is closed if there is none.
   Socket accept();
   void close();
   bool isOpen() const { return fd_ >= 0; }
 
-  // Waits for data, a connection or room; at most `ms`.
+  // Waits for data, a connection or room, at most `ms` milliseconds.
   bool readable(int ms) const;
   bool writable(int ms) const;
 
-  // A datagram, what is beyond the end of `to` is lost; or what the stream has, at most `to`.
+  // Receives a datagram, whose bytes beyond the end of `to` are lost, or at most `to` bytes of a stream.
   Received receive(std::span<uint8_t> to, bool peek = false);
   Sent send(std::span<const uint8_t> from);
   Sent sendTo(std::span<const uint8_t> from, Endpoint to);
 
-  uint16_t port() const; // own
+  uint16_t port() const; // own port
 
 private:
   int32_t open(int type, Endpoint own);
   int fd_ = -1;
 };
 
-// The control's way to other programs on this machine: sockets at 127.0.0.1.
+// The control's connection to other programs on this machine: sockets at 127.0.0.1.
 
 class SocketLine final : public Line {
 public:

@@ -1,6 +1,6 @@
 // The spindles: rotation with ramps, orientation, closed loop, synchronisation, and the signals SN_…, SP_… (man. 7.14).
-// Speeds in 1/min, negative counter-clockwise; positions in revolutions. A closed position loop holds the position
-// exactly; two synchronised spindles are in phase as soon as their speeds agree.
+// Speeds are in 1/min, negative counter-clockwise; positions in revolutions. A closed position loop keeps the position
+// exactly; two synchronised spindles are in phase as soon as their speeds are equal.
 #pragma once
 #include <array>
 
@@ -10,7 +10,7 @@
 
 namespace rung::sim::nct {
 
-inline constexpr double kPulsesPerTurn = 4096; // of a spindle's encoder
+inline constexpr double kPulsesPerTurn = 4096; // of a spindle encoder
 
 struct SpindleSignals {
   BitSignal enable{"SP_SEN"}, start{"SP_SSTRT"}, jog{"SP_PAR"}, negative{"SP_NEG"};
@@ -26,7 +26,7 @@ struct SpindleSignals {
   BitSignal wantsPositive{"SN_SMTNRP"}, wantsNegative{"SN_SMTNRN"}, wantsRapid{"SN_SRAPR"};
   BitSignal detached{"SN_SDETCHA"}, alarm{"SN_SALM"}, referenced{"SN_RPE"}, atIndex{"SN_SINDP"};
   WordSignal command{"SN_NCOM"}, actual{"SN_NACT"};
-  // What every time slice writes of the word of SN_RMPD.
+  // The bits that every time slice writes to the word of SN_RMPD.
   uint32_t written =
       BitSignal::masks({ramped, atSpeed, stopped, fluctuating, loopClosed, oriented, inPosition, synchronised,
                         phaseShifted, wantsPositive, wantsNegative, wantsRapid, alarm, referenced, atIndex});
@@ -67,7 +67,7 @@ public:
   bool closed(uint32_t spindle) const { return spindles_[spindle].closed; }
   bool synchronised(uint32_t spindle) const { return spindles_[spindle].synchronised; }
   uint32_t master(uint32_t spindle) const;
-  // Slave minus master, while synchronised.
+  // Slave minus master, while they are synchronised.
   double synchronousError(uint32_t spindle) const;
 
   Handled config(std::string_view key, std::string_view value) override;
@@ -84,14 +84,14 @@ public:
   void keep(Kept& kept) override;
 
 private:
-  // What the program asks of a spindle; the four exclude each other (l.9186-9196).
+  // The program's command to a spindle; the four exclude each other (l.9186-9196).
   enum class Order : uint8_t { None, Rotate, Orient, Synchronise, CloseLoop };
   struct Spindle {
     double speed = 0;
     double command = 0;
     double set = 0;
-    double position = 0;    // of revolutions, of all time
-    double toGo = 0;        // of an orientation, once it has begun
+    double position = 0;    // in revolutions, not reset
+    double toGo = 0;        // remaining distance of an orientation, once it has begun
     double disturbance = 0; // added to the measured speed by an event
     Order order = Order::None;
     bool closed = false;
@@ -106,17 +106,17 @@ private:
   };
 
   void number(uint32_t count);
-  Order orderOf(uint32_t asked) const; // by the word of its requests
+  Order orderOf(uint32_t asked) const; // from the word of the requests
   uint32_t gear(uint32_t spindle) const;
   double rotationSpeed(uint32_t spindle) const;
-  bool ramp(uint32_t spindle, double target); // true: it is there
+  bool ramp(uint32_t spindle, double target); // true: target reached
   void step(uint32_t spindle, Order order);
   void orient(uint32_t spindle);
   double orientationWay(uint32_t spindle) const;
   void synchronise(uint32_t spindle);
   void turn(uint32_t spindle);
-  uint32_t existing();                     // a bit each
-  void writeSignals(uint32_t there) const; // of all, where these exist
+  uint32_t existing();                     // one bit each
+  void writeSignals(uint32_t there) const; // of all spindles; `there` has those that exist
   void writeSpindle(uint32_t spindle) const;
   double fraction(uint32_t spindle) const;
   double seconds() const { return static_cast<double>(links().sliceUs) * 1e-6; }
@@ -128,9 +128,9 @@ private:
   bool absolute_ = true;
   SpindleSignals signals_;
   SpindleParameters parameters_;
-  uint32_t configured_ = 0; // N0607 #0, a bit each, by the parameters of `revision_`
+  uint32_t configured_ = 0; // N0607 #0, one bit each, valid for `revision_`
   uint32_t revision_ = 0;
-  // While all spindles are at rest, nothing but these makes a time slice do something.
+  // While all spindles are at rest, a time slice only has work if one of these changes.
   bool resting_ = false;
   SeenSignals seen_{WordSignal("SP_1"), WordSignal("SP_RNG"), WordSignal("SN_1"), WordSignal("SN_NCOM"),
                     WordSignal("SN_NACT")};

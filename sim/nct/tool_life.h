@@ -1,5 +1,5 @@
-// Life management of the tools in the spindles (man. 6.26.1, l.4385-4436) and its signals (man. 7.14.1): what is
-// counted, when a tool expires or is reported broken, and the requests SN_TLCHI, SN_TLCH, SN_TLSKPA, SN_TLNL.
+// Life management of the tools in the spindles (man. 6.26.1, l.4385-4436) and its signals (man. 7.14.1): counting,
+// expiry and breakage of tools, and the requests SN_TLCHI, SN_TLCH, SN_TLSKPA, SN_TLNL.
 //
 // Without tool management (N2900 #0 TMU = 0) nothing is counted and the signals are 0.
 #pragma once
@@ -10,7 +10,7 @@
 
 namespace rung::sim::nct {
 
-// Outputs of the program and inputs to it, of one spindle.
+// Outputs and inputs of the program for one spindle.
 struct ToolAnswers {
   bool individualDone = false; // SP_TLCHIA
   bool groupDone = false;      // SP_TLCHA
@@ -28,15 +28,15 @@ class ToolLife {
 public:
   explicit ToolLife(ToolTables& tables) : tables_(tables) {}
 
-  // Once in a PLC cycle; `spindle` counts from 0.
+  // Called once per PLC cycle; `spindle` counts from 0.
   const ToolRequests& cycle(uint32_t spindle, const ToolAnswers& answers, bool managed);
   void clear() { spindles_ = {}; }
 
-  // A tool change has been finished: the tool that is in the spindle now has been used once more.
+  // A tool change has been completed: counts one more use of the tool now in the spindle.
   void countUse(uint32_t spindle);
-  // Machining with the tool in the spindle.
+  // Counts machining time of the tool in the spindle.
   void countTime(uint32_t spindle, int64_t us);
-  // Counter, life or status of a tool were written: a tool in a spindle that expires by it is to be changed.
+  // Counter, life or status of a tool were written: requests a change if a tool in a spindle expires thereby.
   void written(uint32_t dataNumber, int32_t statusBefore);
 
   uint32_t toolIn(uint32_t spindle) const { return tables_.cartridges.dataNumber({(spindle + 1) * 10, 1}); }
@@ -49,7 +49,7 @@ private:
     bool skipped = false;   // SN_TLCHI follows SN_TLSKPA
     bool noticeDue = false; // SN_TLNL in the next cycle
     uint32_t timedTool = 0;
-    int64_t us = 0; // of timedTool, less than a second
+    int64_t us = 0; // time of timedTool, less than a second
   };
   void add(uint32_t spindle, bool time);
   void tellGroup(Spindle& spindle, int32_t type);

@@ -1,6 +1,5 @@
-// Tool management of the simulated NCT control (man. 6.26): the tables, the services MW 100 to MR 108, what the
-// operator and the configuration write into the tables, and the signals of life management. Channels ask it where a
-// tool is.
+// Tool management of the simulated NCT control (man. 6.26): the tables, the services MW 100 to MR 108, changes of the
+// tables by the operator and the configuration, and the signals of life management. Channels use it to find a tool.
 #pragma once
 #include <array>
 #include <string>
@@ -50,15 +49,15 @@ public:
 
   // For the channels. `spindle` counts from 0.
   bool managed() const;                     // N2900 #0 TMU
-  ToolPick pick(int32_t type);              // for a T code; N_TLSRCH is shown in the next cycle
-  bool countsT() const { return countsT_; } // uses are counted at T, not at M06
+  ToolPick pick(int32_t type);              // for a T code; N_TLSRCH is set in the next cycle
+  bool countsT() const { return countsT_; } // uses are counted at T instead of M06
   void countUse(uint32_t spindle) { life_.countUse(spindle); }
   void countTime(uint32_t spindle, int64_t us) { life_.countTime(spindle, us); }
 
   const ToolTables& tables() const { return tables_; }
 
 private:
-  struct Setting { // of the configuration, again at every cold start
+  struct Setting { // from the configuration, applied at every cold start
     std::string name;
     double value;
   };
@@ -66,7 +65,7 @@ private:
   void build();
   bool exists(uint32_t cartridge) const;
   int32_t checkPlace(PotPlace place, int32_t firstCode) const;
-  // The tool in the pot that words 2 and 3 name, as an execution code.
+  // Finds the tool in the pot of words 2 and 3; returns an execution code.
   int32_t findTool(const Block& block, uint32_t& tool) const;
   bool locked() const; // P_TLTAB
 
@@ -111,7 +110,7 @@ private:
   std::vector<Setting> settings_;
 
   bool editing_ = false;   // N_TLEDT: the operator has the tables open
-  bool searching_ = false; // of the cycle before
+  bool searching_ = false; // in the previous cycle
   bool modified_ = false;
   bool saving_ = false;
 };

@@ -1,5 +1,5 @@
-// The tool management table (man. 6.26.1, l.4315-4442) and the columns of its rows as the services number them
-// (l.5100). A row is a tool if its info says so (V); all others are free. Time is counted in seconds.
+// The tool management table (man. 6.26.1, l.4315-4442) and its columns, numbered as in the services (l.5100). A row is
+// a tool if its info has V; all others are free. Times are in seconds.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -28,13 +28,13 @@ inline constexpr ToolColumn kToolG = 10;
 inline constexpr ToolColumn kToolW = 11;
 inline constexpr ToolColumn kToolSpeed = 12;
 inline constexpr ToolColumn kToolFeed = 13;  // double
-inline constexpr ToolColumn kToolUser1 = 14; // 8 bits; from 15 on double
+inline constexpr ToolColumn kToolUser1 = 14; // 8 bits; columns from 15 on are doubles
 inline constexpr ToolColumn kToolColumns = 33;
 inline constexpr uint32_t kToolUserColumns = 20;
 
 constexpr bool isRealColumn(ToolColumn column) { return column == kToolFeed || column > kToolUser1; }
 constexpr uint32_t columnWords(ToolColumn column) { return isRealColumn(column) ? 2 : 1; }
-// NUMBER or the name that events and quantities use; 0: none such.
+// NUMBER or the name used by events and quantities; 0: no such column.
 ToolColumn toolColumn(std::string_view name);
 
 // Bits of the tool info (l.4342-4368).
@@ -53,7 +53,7 @@ inline constexpr int32_t kLifeExpired = 3;
 inline constexpr int32_t kLifeBroken = 4;
 
 struct ToolDatum {
-  int32_t word = 0; // of an integer column
+  int32_t word = 0; // value of an integer column
   double real = 0;
 };
 
@@ -72,11 +72,11 @@ public:
   bool info(uint32_t bit) const { return (static_cast<uint32_t>(words_[kToolInfo]) & bit) != 0; }
   bool valid() const { return info(kInfoValid); }
   int32_t status() const { return words_[kToolStatus]; }
-  // The T code of a program may get this tool (l.4362-4403).
+  // Whether the T code of a program may select this tool (l.4362-4403).
   bool searchable() const;
-  // In life management, with a life that can be reached.
+  // Whether the tool is in life management and has a finite life.
   bool hasLife() const { return status() >= kLifeNotUsed && status() <= kLifeExpired && words_[kToolLife] != 0; }
-  // Status of a tool in life management from its counter and life.
+  // Computes the status of a tool in life management from its counter and life.
   void renewStatus();
 
 private:
@@ -84,17 +84,17 @@ private:
   std::array<double, kToolColumns + 1> reals_{};
 };
 
-// What values the machine's tables allow.
+// Limits for values in the machine's tables.
 struct ToolLimits {
   uint32_t userColumns = kToolUserColumns;
   uint32_t compensations = 200; // rows of the compensation table
 };
 
-// False: execution code 104 + column.
+// Returns false for execution code 104 + column.
 bool acceptable(ToolColumn column, const ToolDatum& datum, const ToolLimits& limits);
 
-// The columns that a record of so many words (from the type number on) fills; nullopt: no whole number of columns,
-// none, or more than there are (l.4808).
+// The columns that a record of `words` words (from the type number on) contains; nullopt: not a whole number of
+// columns, none, or too many (l.4808).
 std::optional<ToolColumn> columnsOfRecord(int64_t words, uint32_t userColumns);
 
 class ToolTable {
@@ -113,14 +113,14 @@ private:
   std::vector<ToolRow> rows_ = std::vector<ToolRow>(1); // row 0 is not used
 };
 
-// The cartridge management table (man. 6.26.2, l.4443-4497): which tool, by its data number, is in which pot.
-// Cartridges 1-4 are magazines, 10 * s is spindle s and 10 * s + 1 its standby cartridge, both of one pot.
+// The cartridge management table (man. 6.26.2, l.4443-4497): the data number of the tool in each pot. Cartridges 1-4
+// are magazines, 10 * s is spindle s and 10 * s + 1 its standby cartridge; both have one pot.
 //
-// Invariant: a data number is in one pot at most.
+// Invariant: a data number is in at most one pot.
 
 inline constexpr uint32_t kMagazines = 4;
 
-// A cartridge of the chain type is a ring of one row; the pots of a matrix are counted row by row.
+// A chain-type cartridge is a ring with one row; the pots of a matrix are counted row by row.
 struct CartridgeShape {
   uint32_t number = 0;
   uint32_t firstPot = 1;
@@ -140,12 +140,12 @@ struct PotPlace {
 
 class CartridgeTable {
 public:
-  // All pots are empty. `shapes` in the order of the table's rows, each number once; data numbers go from 1 to
-  // `dataNumbers`. Nothing else allocates.
+  // All pots are empty at first. `shapes` are in the order of the table's rows, each number once; data numbers are 1 to
+  // `dataNumbers`. The other functions do not allocate.
   void build(std::span<const CartridgeShape> shapes, uint32_t dataNumbers);
   void clear();
 
-  uint32_t size() const { return static_cast<uint32_t>(pots_.size()); } // rows of the table: serial numbers 1 to size
+  uint32_t size() const { return static_cast<uint32_t>(pots_.size()); } // number of rows: serial numbers 1 to size
   PotPlace place(uint32_t serial) const;
 
   const CartridgeShape* find(uint32_t cartridge) const;
@@ -153,27 +153,27 @@ public:
 
   // 0: no tool, or no such pot.
   uint32_t dataNumber(PotPlace place) const;
-  // A pot that holds the number already gives it away.
+  // If another pot has the data number, it is removed there.
   void put(PotPlace place, uint32_t dataNumber);
   void exchange(PotPlace first, PotPlace second);
   std::optional<PotPlace> placeOf(uint32_t dataNumber) const;
-  void take(uint32_t dataNumber); // out of its pot
+  void take(uint32_t dataNumber); // removes it from its pot
   void keep(Kept& kept);
 
 private:
   struct Cartridge {
     CartridgeShape shape;
-    uint32_t first = 0; // of its pots in pots_
+    uint32_t first = 0; // index of its first pot in pots_
   };
   std::optional<uint32_t> index(PotPlace place) const;
   void write(uint32_t index, uint32_t dataNumber);
 
   std::vector<Cartridge> cartridges_;
   std::vector<uint32_t> pots_;   // data numbers
-  std::vector<uint32_t> serial_; // by data number: row of its pot, from 1; 0: in none
+  std::vector<uint32_t> serial_; // by data number: row of its pot, from 1; 0: in no pot
 };
 
-// The order in which pots and pallet places are searched: numbers in a ring, in one direction or both (MR 101, man.
+// The order in which pots and pallet places are searched: a ring of numbers, in one direction or both (MR 101, man.
 // l.4690; MR 308, man. l.5779).
 
 enum class SearchDirection : uint8_t { Both, Positive, Negative };
@@ -181,11 +181,12 @@ enum class SearchDirection : uint8_t { Both, Positive, Negative };
 constexpr SearchDirection searchDirection(int32_t word) {
   return word == 1 ? SearchDirection::Positive : word == 2 ? SearchDirection::Negative : SearchDirection::Both;
 }
-// Of a magazine that turns there: 1 or 2.
+// The word for a magazine's direction of rotation: 1 or 2.
 constexpr int32_t rotationWord(SearchDirection direction) { return direction == SearchDirection::Negative ? 2 : 1; }
 
-// The nearest to `start` of `count` places (from 0, a ring) that `fits`, the start itself first; of two at the same
-// distance the one in positive direction. With it the direction to turn to: Positive or Negative.
+// The nearest of `count` places (a ring, from 0) to `start` for which `fits` is true, beginning with `start`; of two at
+// the same distance, the one in positive direction. The result includes the direction of rotation: Positive or
+// Negative.
 template <class Fits>
 std::optional<std::pair<uint32_t, SearchDirection>> nearestPlace(uint32_t start, uint32_t count,
                                                                  SearchDirection direction, Fits fits) {
@@ -198,8 +199,8 @@ std::optional<std::pair<uint32_t, SearchDirection>> nearestPlace(uint32_t start,
   return std::nullopt;
 }
 
-// The tool pattern table (man. 6.26.3, l.4498-4612): how much room the figures of oversize tools take around their
-// pot, in half pots. Figure 0 and rows that were never written take one pot.
+// The tool pattern table (man. 6.26.3, l.4498-4612): the space that oversize tools need around their pot, by figure, in
+// half pots. Figure 0 and rows that were never written need one pot.
 
 struct ToolPattern {
   uint32_t left = 0; // towards lower pot numbers
@@ -225,15 +226,15 @@ private:
   std::array<ToolPattern, kRows + 1> rows_{};
 };
 
-// The three tables of the tool management (man. 6.26.1-6.26.3). They are one for all channels.
+// The three tables of tool management (man. 6.26.1-6.26.3), common to all channels.
 //
 // Invariant: a data number in a pot is a row of the tool table.
 
-// What the NC finds for a T code (l.4362-4372, 10742-10772).
+// The tool that the NC selects for a T code (l.4362-4372, 10742-10772).
 struct ToolPick {
-  bool expired = false;    // CN_TLLE: tools of the type are expired or broken, none is left (l.9733)
-  uint32_t dataNumber = 0; // 0: none that can be searched is in a pot
-  PotPlace place;          // of it, else 0, 0
+  bool expired = false;    // CN_TLLE: all tools of the type are expired or broken (l.9733)
+  uint32_t dataNumber = 0; // 0: no searchable tool is in a pot
+  PotPlace place;          // its pot, otherwise 0, 0
 };
 
 struct ToolTables {
@@ -241,29 +242,29 @@ struct ToolTables {
   CartridgeTable cartridges;
   PatternTable patterns;
 
-  // Room in the cartridges; normal tools, figure 0 and no tool take one pot (l.4374-4380).
+  // The pattern of a tool; normal tools, figure 0 and no tool need one pot (l.4374-4380).
   const ToolPattern& patternOf(uint32_t dataNumber) const;
 
-  // Of the tools with this type number in a pot that can be searched, the one with the greatest life counter, of equal
-  // ones the lowest data number.
+  // Of the searchable tools with this type number in a pot, the one with the greatest life counter; if equal, the
+  // lowest data number.
   ToolPick pick(int32_t type) const;
-  // No tool with this type number can be searched, and one has expired or is broken.
+  // Whether no tool with this type number is searchable, and at least one is expired or broken.
   bool groupExpired(int32_t type) const;
 
-  // The row becomes free and its pot empty.
+  // Frees the row and its pot.
   void remove(uint32_t dataNumber);
 };
 
-// Search of an empty pot for a tool (man. 6.26.3 and 6.26.5, l.4498-4718). Room is counted in cells of half a pot: a
-// chain-type cartridge is a ring of cells, a matrix a field with two cells a pot in either direction. A tool fits where
-// none of its cells is another tool's; half a pot that is left over takes no tool, but it takes the half of a
-// neighbour.
+// Search for an empty pot for a tool (man. 6.26.3 and 6.26.5, l.4498-4718). Space is counted in cells of half a pot: a
+// chain-type cartridge is a ring of cells, a matrix a field with two cells per pot in both directions. A tool fits if
+// none of its cells belongs to another tool; a remaining half pot cannot receive a tool, but can serve as the half that
+// a neighbour needs.
 
 struct PotSearch {
   uint32_t cartridge = 0;
-  uint32_t start = 0; // a pot of it
+  uint32_t start = 0; // a pot of the cartridge
   SearchDirection direction = SearchDirection::Both;
-  uint32_t tool = 0; // data number of the tool that looks for a place: its own cells are free; 0: takes one pot
+  uint32_t tool = 0; // data number of the tool to be placed, whose own cells count as free; 0: needs one pot
 };
 
 struct PotFound {
@@ -273,10 +274,10 @@ struct PotFound {
 
 class PotFinder {
 public:
-  // For the largest magazine of the table; `find` does not allocate.
+  // Allocates for the largest magazine of the table; `find` does not allocate.
   void reserve(const CartridgeTable& table);
-  // The nearest empty pot in the direction, the start first; of two at the same distance the one in positive direction.
-  // Pot numbers wrap round. Only magazines are searched (l.4672).
+  // Finds the nearest empty pot in the direction, beginning with the start; of two at the same distance, the one in
+  // positive direction. Pot numbers wrap around. Only magazines are searched (l.4672).
   std::optional<PotFound> find(const ToolTables& tables, const PotSearch& search);
 
 private:

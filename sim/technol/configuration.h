@@ -1,5 +1,4 @@
-// The configuration of the machine and the constants of the PLC that a program reads by their identifiers (man. ch.
-// 16).
+// The configuration of the machine and the constants of the PLC, which a program reads by identifiers (man. ch. 16).
 #pragma once
 #include <map>
 #include <optional>
@@ -15,17 +14,17 @@ namespace rung::sim::technol {
 
 class Configuration {
 public:
-  // `config KEY VALUE`: a parameter, with `const.` before its identifier a constant, with `licence.` before
-  // its name a licence. "" or what is wrong.
+  // Sets `config KEY VALUE`: a parameter; with `const.` before its identifier, a constant; with `licence.` before its
+  // name, a licence. Returns "", or the error.
   std::string set(std::string_view key, std::string_view value);
-  // What the control's files say. "" or what is wrong, with its place.
+  // Adds the definitions in the control's files. Returns "", or the error with its position.
   std::string define(std::span<const host::ParameterDefinition> parameters,
                      std::span<const host::ConstantDefinition> constants);
-  // Answers a request of the kind Configuration. Allocates nothing.
+  // Answers a request of kind Configuration. Allocates nothing.
   void respond(const core::ServiceRequest& request, core::ServiceReply& reply) const;
-  // The identifier in UTF-8.
+  // `id` is in UTF-8.
   std::optional<int64_t> constant(std::string_view id) const;
-  // A bit for each of kLicences.
+  // One bit for each of kLicences.
   uint32_t licences() const { return licences_; }
 
 private:
@@ -34,10 +33,10 @@ private:
   std::string setLicence(std::string_view name, std::string_view value);
   int64_t nextCommand();
 
-  // Identifiers and texts as the program's memory holds them (rtlib/nc/technol/code_page.h).
+  // Identifiers and texts in the encoding of the program's memory (rtlib/nc/technol/code_page.h).
   std::map<std::string, std::string, std::less<>> parameters_;
   std::map<std::string, int64_t, std::less<>> constants_;
-  std::set<int64_t> commands_; // numbers that constants have
+  std::set<int64_t> commands_; // numbers used by constants
   uint32_t licences_ = 0;
   int64_t nextOffset_ = 0; // in shared area 0
   int64_t nextCommand_ = 1;

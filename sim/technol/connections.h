@@ -1,5 +1,5 @@
-// One connection as it is served: from where, to where, how the value changes on the way. Made before the program runs;
-// copying allocates nothing and looks nothing up.
+// A connection as it is executed: its source, its destination, and the conversion of the value. Made before the program
+// runs; copying allocates nothing and looks nothing up.
 #pragma once
 #include <compare>
 #include <limits>
@@ -19,7 +19,7 @@
 
 namespace rung::sim::technol {
 
-// A place that a connection begins or ends at: a bit, a number or a text.
+// The source or destination of a connection: a bit, a number or a text.
 struct Pin {
   enum class Kind : uint8_t {
     Memory,  // the number or bit at `located`, which is `place`
@@ -29,8 +29,8 @@ struct Pin {
   };
   Kind kind = Kind::Memory;
   nc::ExchangeType type = nc::ExchangeType::Bit;
-  uint8_t bit = 0;   // of the cell
-  uint32_t cell = 0; // its number
+  uint8_t bit = 0;   // bit of the cell
+  uint32_t cell = 0; // number of the cell
   core::Place located;
   runtime::Ref place;
 };
@@ -38,7 +38,7 @@ inline bool isOfModule(const Pin& pin) { return pin.kind == Pin::Kind::Cell || p
 inline bool isMemoryBit(const Pin& pin) { return pin.kind == Pin::Kind::Memory && pin.type == nc::ExchangeType::Bit; }
 Pin pinAt(const rung_program& program, const runtime::Ref& place, nc::ExchangeType type);
 
-// (min(max(x, least), most) + before) * scale + after, then held between low and high.
+// (min(max(x, least), most) + before) * scale + after, then limited to low … high.
 struct Stage {
   static constexpr double kInfinity = std::numeric_limits<double>::infinity();
   double least = -kInfinity, most = kInfinity;
@@ -51,14 +51,14 @@ struct Wire {
   static constexpr size_t kStages = 3;
   Pin from, to;
   bool invert = false;
-  bool joins = false;    // ORed to what another wire has put there
-  bool isShared = false; // its end is one that others join or have set
-  bool isBit = false;    // from a bit of the memory to another: most are
+  bool joins = false;    // ORed with the value that another wire has set there
+  bool isShared = false; // other wires also set or join its destination
+  bool isBit = false;    // from one bit of memory to another, the most frequent case
   uint8_t stageCount = 0;
   Stage stages[kStages];
   nc::ExchangePeriod period = nc::ExchangePeriod::Slow;
-  uint64_t target = kNoTarget; // the element of a DEF_IN that it ends in
-  bool whole = true;           // and not in a bit of it
+  uint64_t target = kNoTarget; // the element of a DEF_IN that is its destination
+  bool whole = true;           // false: the destination is a bit of it
 
   static constexpr uint64_t kNoTarget = UINT64_MAX;
   static uint64_t targetOf(uint32_t space, uint32_t byte) { return uint64_t{space} << 32 | byte; }
@@ -68,7 +68,7 @@ class WireMemory {
 public:
   WireMemory(runtime::Instance& instance, ModuleCells& cells) : memory_(instance.memory()), cells_(&cells) {}
   void copy(const Wire& wire) const;
-  // The value that would be copied, in the bits of the wire's end; not of texts.
+  // The value to be copied, in the type of the destination; not for texts.
   uint64_t valueOf(const Wire& wire) const;
 
 private:
@@ -80,19 +80,19 @@ private:
   ModuleCells* cells_;
 };
 
-// The variables of a running program that its control knows by names: mapped and logical inputs and outputs, and what
-// SHARE_VAR and SHARE_BIT share (man. ch. 10, 18.2, 27). The program declares them while it starts.
+// The variables of a running program that its control knows by name: mapped and logical inputs and outputs, and those
+// shared by SHARE_VAR and SHARE_BIT (man. ch. 10, 18.2, 27). The program declares them while it starts.
 
 struct SharedVariable {
-  std::string name; // as the program writes it
+  std::string name; // as in the program
   nc::ExchangeKind kind = nc::ExchangeKind::Variable;
   nc::ExchangeType type = nc::ExchangeType::Uns8;
   nc::ExchangePeriod period = nc::ExchangePeriod::Slow;
-  uint32_t count = 1; // elements, or bytes of a text
+  uint32_t count = 1; // number of elements, or bytes of a text
   uint32_t space = 0, byte = 0, bit = 0;
   std::optional<runtime::Ref> least, most; // of SHARE_VAR: reals
 
-  // What the program takes from the control; a screen may write it.
+  // Whether the program reads the variable from the control; a screen may write it.
   bool isInput() const {
     return kind == nc::ExchangeKind::MapIn || kind == nc::ExchangeKind::MapAin || kind == nc::ExchangeKind::DefIn;
   }
@@ -108,79 +108,79 @@ class SharedVariables {
 public:
   SharedVariables() { all_.reserve(kUsual); }
   void clear();
-  // False where the name has another meaning already, or the place is not in the program's memory. `isNew` says
-  // whether something has changed.
+  // Returns false if the name already has another meaning, or the place is not in the program's memory. `isNew`:
+  // something has changed.
   bool define(const rung_program& program, SharedVariable variable, bool& isNew);
 
-  // In another program; those that it does not have are dropped.
+  // Moves the variables to another program; those that it does not have are dropped.
   void relocate(const runtime::Relocation& relocation);
 
   const std::vector<SharedVariable>& all() const { return all_; }
-  // By a canonical identifier of a DEF_IN or DEF_OUT.
+  // Finds a DEF_IN or DEF_OUT by its canonical identifier.
   const SharedVariable* logical(nc::ExchangeKind kind, std::string_view identifier) const;
-  // By the name that a screen uses: of any kind, with the index of an element and `.Bit[k]` after it, as `PLC.Input.`
-  // or `PLC.Output.` identifier or the identifier alone.
+  // Finds a variable of any kind by the name that a screen uses: `PLC.Input.` or `PLC.Output.` and the identifier, or
+  // the identifier alone, with an optional element index and `.Bit[k]`.
   std::optional<runtime::Ref> find(std::string_view name, bool toWrite) const;
-  // Of MAP_* and DEF_*: the variable that holds the place, and which of its elements.
+  // Finds the MAP_* or DEF_* variable at this place, and the element.
   const SharedVariable* at(const runtime::Ref& place, uint32_t& element) const;
 
 private:
-  static constexpr size_t kUsual = 1024; // more than that allocate when they are defined
+  static constexpr size_t kUsual = 1024; // a larger number allocates in `define`
   const SharedVariable* byName(std::string_view name, bool toWrite) const;
 
   std::vector<SharedVariable> all_;
-  // By kind (see cpp) and canonical identifier.
+  // By kind (see connections.cpp) and canonical identifier.
   std::unordered_map<std::string, uint32_t> byKey_;
 };
 
-// What Define declares.
+// The variable that a request of kind Define declares.
 std::optional<SharedVariable> variableOf(const core::ServiceRequest& request);
 
 // The connections of logical inputs and outputs, and the configuration of mapped ones (man. ch. 10, 27): a table of
-// wires, made when the program has declared what it has.
+// wires, made when the program has declared its variables.
 
 class Connections {
 public:
   // ---- before the program runs
   // `connect SOURCE DESTINATION` of a scenario.
   void connect(std::string_view source, std::string_view destination);
-  // `config ID.Invert 1` and its like; other keys are left alone.
+  // `config ID.Invert 1` and similar keys; others are ignored.
   void configure(std::string_view key, std::string_view value);
   void take(std::span<const host::ConnectionDefinition> connections,
             std::span<const host::TerminalDefinition> terminals);
 
-  // Something is: without it nothing is ever connected, whatever the program declares.
+  // Whether there is any configuration: without it nothing is ever connected, whatever the program declares.
   bool configured() const { return !connections_.empty() || !attributes_.empty(); }
 
   // ---- at a start
-  // What the program may see while it starts: ANALOG_CONNECTED.
+  // Sets ANALOG_CONNECTED, which the program may read while it starts.
   void preset(runtime::Instance& instance) const;
-  // A default value of the configuration, in the bits of the variable's type.
+  // A configured default value, in the type of the variable.
   std::optional<uint64_t> defaultOf(const SharedVariable& variable) const;
-  // Makes the table.
+  // Makes the table of wires.
   void build(runtime::Instance& instance, const SharedVariables& variables, ModuleCells& cells);
   const std::vector<NcProblem>& problems() const { return problems_; }
 
   // ---- while it runs; nothing allocates
-  // All that are not slower than `slowest`.
+  // Copies all connections with periods up to `slowest`.
   void copy(runtime::Instance& instance, ModuleCells& cells, nc::ExchangePeriod slowest) const;
-  // While the program is stopped: what passes from module to module, without ends that several connections set.
+  // While the program is stopped: copies between modules, except to destinations that several connections set.
   void copyBetweenModules(runtime::Instance& instance, ModuleCells& cells) const;
-  // What UpdateInput answers.
+  // Answers a request of kind UpdateInput.
   void update(runtime::Instance& instance, ModuleCells& cells, const core::ServiceRequest& request,
               core::ServiceReply& reply) const;
 
 private:
   struct Attributes {
     std::optional<double> invert, scale, offset, least, most, otherwise, connected, port, bit, physical;
-    std::string wrong;     // an attribute that is not a number
-    host::FilePlace place; // where it was read, "" without a file
+    std::string wrong;     // an attribute with a value that is not a number
+    host::FilePlace place; // position in its file, "" without a file
   };
   struct Connection {
     std::string source, destination; // as written
     bool invert = false;
     double scale = 1, offset = 0;
-    uint32_t number = RUNG_NONE; // of the calls of connect
+    uint32_t number = RUNG_NONE; // number of the call of connect
     host::FilePlace place;
   };
   struct End {
@@ -188,8 +188,8 @@ private:
     nc::ExchangePeriod period = nc::ExchangePeriod::Fast;
     bool isSource = false, isDestination = false;
     const SharedVariable* variable = nullptr;
-    bool isOpen = false;     // a module's cell whose type the other end gives
-    bool signIsOpen = false; // or whose sign
+    bool isOpen = false;     // a module's cell whose type is that of the other end
+    bool signIsOpen = false; // a module's cell whose sign is that of the other end
     uint64_t target = Wire::kNoTarget;
     bool whole = true;
   };
@@ -209,10 +209,10 @@ private:
   std::map<std::string, Attributes, std::less<>> attributes_; // by canonical identifier
   std::vector<Connection> connections_;
   uint32_t connects_ = 0;
-  std::vector<std::pair<host::TerminalKind, uint32_t>> channels_; // analogue ones that a file connects
+  std::vector<std::pair<host::TerminalKind, uint32_t>> channels_; // analogue ones connected in a file
 
-  std::vector<Wire> wires_; // by period, the fastest first; those on demand last
-  size_t ends_[4] = {};     // of each period
+  std::vector<Wire> wires_; // sorted by period, the fastest first; those on demand last
+  size_t ends_[4] = {};     // end of each period in wires_
   struct Target {
     uint64_t place; // Wire::target
     uint32_t wire;

@@ -1,6 +1,6 @@
-// The ports of the input and output units: forced bits and shorted outputs (man. l.3498-3609). Inputs are forced
-// before the program, outputs after it; what the machine or the program itself put there comes back before the next
-// cycle. Without forcing and errors a cycle only looks at half a kilobyte.
+// The ports of the input and output units: forced bits and shorted outputs (man. l.3498-3609). Inputs are forced before
+// the program, outputs after it; values written by the machine or the program are restored before the next cycle.
+// Without forcing and errors a cycle only compares half a kilobyte.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -17,31 +17,31 @@ namespace rung::sim::technol {
 
 class Ports {
 public:
-  // P1IN to P128IN, P0OUT to P95OUT (man. l.3341); units INOUT08.
+  // P1IN to P128IN, P0OUT to P95OUT (man. l.3341); INOUT08 units.
   static constexpr uint32_t kInputs = 128, kOutputs = 96, kUnits = 32;
 
-  // `config CAN[1].INOUT08[i].CONTROL n`: the control byte of a unit, of which IO_DIS_ERPIS counts here. False: another
-  // key. `problem` says what is wrong with the value.
+  // `config CAN[1].INOUT08[i].CONTROL n`: sets the control byte of a unit; only IO_DIS_ERPIS is used here. Returns
+  // false for other keys. `problem`: the error in the value.
   bool configure(std::string_view key, std::string_view value, std::string& problem);
   // At a power-on: nothing is forced.
   void reset(const runtime::Instance& instance);
-  // Where the ports are in the program that runs now.
+  // Looks up the ports in the running program.
   void locate(const runtime::Instance& instance);
 
   void beforeProgram(runtime::Instance& instance);
   void afterProgram(runtime::Instance& instance);
-  // The value that comes may be equal to a forced one, so the ports it goes to get their own back first.
+  // Restores the own values of the ports, because a value about to be written may be equal to a forced one.
   void beforeWrite(runtime::Instance& instance, const runtime::Ref& place);
 
 private:
   struct Port {
-    uint8_t own = 0;    // what the machine or the program put there
-    uint8_t forced = 0; // what has been there since
+    uint8_t own = 0;    // written by the machine or the program
+    uint8_t forced = 0; // forced value, present since then
     bool active = false;
   };
-  struct Family { // of cells that are numbered
+  struct Family { // numbered cells
     uint32_t space = RUNG_NONE, first = 0, stride = 0;
-    // The number of the cell at this byte.
+    // The number of the cell that contains this byte.
     std::optional<uint32_t> find(uint32_t inSpace, uint32_t byte, uint32_t count) const;
   };
   struct Span {
@@ -61,38 +61,38 @@ private:
   std::array<Port, kInputs> in_;
   std::array<Port, kOutputs> out_;
   std::array<uint8_t, kUnits> control_{};
-  std::vector<Span> switches_; // of the block: forcing and errors
+  std::vector<Span> switches_; // areas with the bits for forcing and errors
   bool active_ = false;
 };
 
-// Everything that the simulated control exchanges with a program beside its interface cells: shared variables,
+// Everything that the simulated control exchanges with a program besides its interface cells: shared variables,
 // connections, module cells, ports (man. ch. 9, 10, 18, 27), in the order of a cycle.
 
 class Exchange {
 public:
-  // Before the program runs; "" or what is wrong.
+  // To be called before the program runs; returns "", or the error.
   std::string configure(std::string_view key, std::string_view value);
   void connect(std::string_view source, std::string_view destination) { connections_.connect(source, destination); }
-  // Of the control's files.
+  // Adds the definitions in the control's files.
   void take(std::span<const host::ConnectionDefinition> connections,
             std::span<const host::TerminalDefinition> terminals) {
     connections_.take(connections, terminals);
   }
 
-  // Memory has been started; the program's MODULE_INIT follows. `powerOn`: not a mere start of the program.
+  // Memory has been initialized; the program's MODULE_INIT follows. `powerOn`: false if only the program starts.
   void beforeInit(runtime::Instance& instance, bool powerOn);
   void afterInit(runtime::Instance& instance);
-  // Another program has taken over, whose MODULE_INIT does not run: what the former one has declared is found again in
-  // it. Variables that it does not have are dropped, with the connections that end there; module cells and forced ports
-  // stay as they are.
+  // Another program has taken over without running its MODULE_INIT: variables declared by the previous one are looked
+  // up in it. Those that it does not have are dropped, with their connections; module cells and forced ports stay
+  // unchanged.
   void programChanged(runtime::Instance& instance);
-  // Hooks of the schedule, and those that have something to do, a bit each; configuring may change them.
+  // The hooks of the schedule that have work, one bit each; the configuration may change them.
   uint32_t works() const;
   void onHook(runtime::Instance& instance, uint32_t hook);
-  // While the program is stopped: modules exchange with each other.
+  // While the program is stopped: modules exchange values with each other.
   void idle(runtime::Instance& instance) { connections_.copyBetweenModules(instance, cells_); }
   void beforeWrite(runtime::Instance& instance, const runtime::Ref& place) { ports_.beforeWrite(instance, place); }
-  // Define and UpdateInput; false: another request.
+  // Answers Define and UpdateInput; returns false for other requests.
   bool respond(runtime::Instance& instance, const core::ServiceRequest& request, core::ServiceReply& reply);
 
   const SharedVariables& shared() const { return shared_; }
@@ -103,12 +103,12 @@ public:
 private:
   void define(runtime::Instance& instance, const core::ServiceRequest& request, core::ServiceReply& reply);
 
-  const rung_program* program_ = nullptr; // whose places these are
+  const rung_program* program_ = nullptr; // the program of these places
   SharedVariables shared_;
   ModuleCells cells_;
   Connections connections_;
   Ports ports_;
-  bool defined_ = false; // something that the table of connections does not know
+  bool defined_ = false; // something was defined since the table of connections was made
 };
 
 } // namespace rung::sim::technol

@@ -1,6 +1,6 @@
 // Logical inputs and outputs of modules (man. ch. 27.2-27.4): real-time manager (RTM), EtherCAT (ECAT), virtual
-// keyboard (VKeyboard). Each is a cell that keeps what is put into it; where no simulated device works at it, a
-// scenario plays the module by these names.
+// keyboard (VKeyboard). Each is a cell that stores its last value; if no simulated device uses it, a scenario can play
+// the module through its name.
 #pragma once
 #include <optional>
 #include <span>
@@ -15,22 +15,22 @@
 
 namespace rung::sim::technol {
 
-// What a simulated device has at an element.
+// The value of a simulated device at an element.
 struct ModulePoint {
   enum class Kind : uint8_t {
     None,
-    Key,         // `number` is the scan code on the virtual keyboard
-    ProcessData, // the entry of the process image
-    Position,    // the axis, from 0, in the space `part`, 0 to 6
-    Shift,       // the axis, from 0: what SHIFT adds in POS6
-    Increment,   // the axis, from 0; its AxisIncrement
-    Servo,       // the servo; its ServoPart
-    Shared,      // a cell of the program: `number` of the row `part` of kSharedElements
+    Key,         // `number`: the scan code on the virtual keyboard
+    ProcessData, // `number`: the entry of the process image
+    Position,    // `number`: the axis, from 0; `part`: the space, 0 to 6
+    Shift,       // `number`: the axis, from 0; the SHIFT value in POS6
+    Increment,   // `number`: the axis, from 0; `part`: AxisIncrement
+    Servo,       // `number`: the servo; `part`: ServoPart
+    Shared,      // a cell of the program: `number` in row `part` of kSharedElements
   } kind = Kind::None;
   uint32_t number = 0;
   uint32_t part = 0;
 };
-// What a servo is given, then what it gives.
+// The inputs of a servo, then its outputs.
 enum ServoPart : uint32_t {
   kServoStatus,
   kServoError,
@@ -42,7 +42,7 @@ enum ServoPart : uint32_t {
   kServoState,
   kServoBlocksMotion,
   kServoFaulty,
-  kFollowingErrorMm, // the rest in millimetres, micrometres, increments
+  kFollowingErrorMm, // the following ones in millimetres, micrometres, increments
   kFollowingErrorUm,
   kMeasuredMm,
   kMeasuredUm,
@@ -50,7 +50,7 @@ enum ServoPart : uint32_t {
   kRequestedMm,
   kRequestedUm
 };
-// Of the path in a space; T is a millisecond (man. l.2664, l.12764-12868).
+// Speeds along the path in a space; T is a millisecond (man. l.2664, l.12764-12868).
 enum AxisIncrement : uint32_t {
   kPerTick,
   kPerMinute,
@@ -61,16 +61,16 @@ enum AxisIncrement : uint32_t {
   kPath6PerMinute
 };
 
-// Elements that are cells of the program under another name: what is put at one is at the other.
+// Elements that are cells of the program under another name: both always have the same value.
 struct SharedElement {
-  std::string_view area, element; // as the signals have them
-  std::string_view cell;          // of a servo, its number follows
+  std::string_view area, element; // as in the signals
+  std::string_view cell;          // for a servo, followed by its number
 };
 inline constexpr SharedElement kSharedElements[] = {
     {"RTM.Axis", "ReqShift", "REQ_ESHIFT"},               // l.10882, l.12760
     {"RTM.Axis", "ActShift", "ACT_ESHIFT"},               // l.10885, l.12761
     {"RTM.Axis", "KnobStep", "KNOB_STEP"},                // l.11054, l.12798
-    {"RTM.Axis", "ShiftEnable_Ax", "SHIFT_ENABLE"},       // l.11056, l.12762; a bit an axis
+    {"RTM.Axis", "ShiftEnable_Ax", "SHIFT_ENABLE"},       // l.11056, l.12762; one bit per axis
     {"RTM.Servo.Edrv", "Simul", "flEdrvSimul"},           // l.10378, l.12894
     {"RTM.Servo.Edrv", "Init", "flEdrvInit"},             // l.10360, l.12896
     {"RTM.Servo.Edrv", "On", "flEdrvOn"},                 // l.10362, l.12904
@@ -81,49 +81,49 @@ inline constexpr SharedElement kSharedElements[] = {
     {"RTM.Servo.Edrv", "ScaleSpeed", "rEdrvScaleSpeed"}}; // l.10376, l.12920
 
 struct ModuleElement {
-  std::string key; // one an element, whichever way it is written
+  std::string key; // the same for all spellings of an element
   nc::ExchangeType type = nc::ExchangeType::Bit;
-  bool typeIsOpen = false; // EtherCAT: the type is that of the other end
-  bool signIsOpen = false; // of process data, whether the integer is signed
+  bool typeIsOpen = false; // EtherCAT: the type is that of the other end of the connection
+  bool signIsOpen = false; // process data: the sign is that of the other end
   nc::ExchangePeriod period = nc::ExchangePeriod::Fast;
   bool isSource = true, isDestination = true;
   ModulePoint point = {};
 };
 
-// By a canonical identifier, without `.Bit[k]`, without simulated devices. Nothing: no such element; `problem`
-// says why where the module is known.
+// Finds an element by its canonical identifier, without `.Bit[k]`, without simulated devices. Nothing: no such element;
+// `problem` has the reason if the module is known.
 std::optional<ModuleElement> moduleElement(std::string_view identifier, std::string& problem);
 
 struct ModuleCell {
   nc::ExchangeType type = nc::ExchangeType::Bit;
   bool typeIsOpen = false;
-  uint64_t bits = 0;  // of the type; a bit is 0 or 1
-  uint64_t given = 0; // what a device has put there last
+  uint64_t bits = 0;  // in the cell's type; a bit is 0 or 1
+  uint64_t given = 0; // last value set by a device
 };
 
 class ModuleCells {
 public:
-  // A simulated EtherCAT net, whose slaves' elements are those of its image. It outlives the cells.
+  // Adds the elements of a simulated EtherCAT network's image, which must outlive the cells.
   void simulate(const EthercatImage& image) { image_ = &image; }
-  // As moduleElement, and of the simulated net.
+  // Like moduleElement, but including the simulated network.
   std::optional<ModuleElement> element(std::string_view identifier, std::string& problem) const;
 
-  void reset(); // all cells 0
-  // Cells for the elements of kSharedElements, whether or not they are connected.
+  void reset(); // sets all cells to 0
+  // Adds cells for the elements of kSharedElements, whether or not they are connected.
   void addShared();
-  // Cells stay where they are while a table of connections holds their numbers.
+  // Returns the number of the cell, which stays valid while a table of connections uses it.
   uint32_t cellOf(const ModuleElement& element);
   ModuleCell& at(uint32_t cell) { return cells_[cell]; }
   const ModuleCell& at(uint32_t cell) const { return cells_[cell]; }
 
-  // Those at which a simulated device may work.
+  // The cells that a simulated device may use.
   struct PointCell {
     ModulePoint point{};
     uint32_t cell = 0;
   };
   std::span<const PointCell> points() const { return points_; }
 
-  // By any identifier. Nothing: no such element.
+  // Access by any identifier. Nothing, false: no such element.
   std::optional<NcCell> read(std::string_view name) const;
   bool write(std::string_view name, const NcCell& value);
 

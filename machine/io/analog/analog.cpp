@@ -70,7 +70,7 @@ void addAnalogPins(host::File& map, const rung_program& program) {
   }
 }
 
-// Requests to analogue outputs. Results are the port that has changed and its value.
+// Requests to analogue outputs. Results are the changed port and its value.
 
 namespace {
 
@@ -79,7 +79,8 @@ void setOutput(DeviceCall& call, const AnalogOutput& output) {
   call.setReal(1, output.value);
 }
 
-// Of AX_SPI: 0, 1, 2, or kFirstSpindleWord for S; not given, it is the main spindle (inventory of the services, 4).
+// The role in AX_SPI: 0, 1, 2, or kFirstSpindleWord for S; the main spindle if not given (inventory of the services,
+// 4).
 SpindleRole roleOf(int64_t operand) {
   if (operand == nc::technol::kNotGiven) return SpindleRole::Main;
   return operand == nc::technol::kFirstSpindleWord ? SpindleRole::Keep : static_cast<SpindleRole>(operand);

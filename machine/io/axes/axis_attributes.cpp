@@ -21,7 +21,7 @@ struct Attribute {
   std::string_view name;
   double AxisAttributes::* member;
   Takes takes;
-  double least = 0, most = 0; // of whole ones
+  double least = 0, most = 0; // range of whole numbers
 };
 
 constexpr Attribute kAttributes[] = {
@@ -51,7 +51,7 @@ constexpr Attribute kAttributes[] = {
     {"ManEnable", &AxisAttributes::manEnable, Takes::Whole, 1, 2},
 };
 
-// In any case, as in the other elements of the control's files.
+// Case does not matter, as in the other elements of the control's files.
 const Attribute* find(std::string_view name) {
   const auto* const found =
       std::ranges::find_if(kAttributes, [&](const Attribute& row) { return text::equalsIgnoringCase(row.name, name); });

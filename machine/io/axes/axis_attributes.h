@@ -1,5 +1,5 @@
-// What the configuration of the control says of an axis (man. l.11475-11610). Places in mm (degrees), speeds in mm/min
-// (degrees/min), accelerations in mm/s² (degrees/s²).
+// Attributes of an axis in the control's configuration (man. l.11475-11610). Positions in mm (degrees), speeds in
+// mm/min (degrees/min), accelerations in mm/s² (degrees/s²).
 #pragma once
 #include <array>
 #include <cmath>
@@ -11,7 +11,7 @@
 
 namespace rung::io {
 
-// Of places and other numbers of a configuration, in their unit: their cells hold much less.
+// Limit of positions and other numbers of a configuration, in their unit; the range of their cells is much smaller.
 inline constexpr double kFarthest = 1e9;
 inline constexpr double kDegreesPerTurn = 360;
 
@@ -27,20 +27,20 @@ struct AxisAttributes {
   double moveToPosAfterRef = 0;  // l.11555: 1 relative, 2 absolute
   double posAfterRef = 0;        // l.11561
   double machineNullPoint = 0;   // l.11567
-  double feedOvrDuringRef = 0;   // l.11577: 0 %F has an effect on the speed of a reference, 1 it has none
+  double feedOvrDuringRef = 0;   // l.11577: %F changes the speed of a reference: 0 yes, 1 no
   double needRef = 0, autNeedRef = 0;
   double acceleration = 500, accelerationRT = 500, accelerationEmergency = 2000;
   double feed = 2000, feedRT = 60000;
   double rotary = 0;
-  double zeroPulsePitch = 0; // 0: 360 of a rotary axis, else 10
-  double zeroPulseAt = 0;    // physical place of one pulse
-  double position = 0;       // physical place at power-up
+  double zeroPulsePitch = 0; // 0: 360 for a rotary axis, otherwise 10
+  double zeroPulseAt = 0;    // physical position of one pulse
+  double position = 0;       // physical position at power-up
   double speedAt10V = 0;     // of the spindle, per minute; 0: it does not turn
-  double manEnable = 1;      // 1 MPxPI, 2 MPxMAN allows manual motion (l.10861-10869)
+  double manEnable = 1;      // signal that permits manual motion: 1 MPxPI, 2 MPxMAN (l.10861-10869)
 
   double pitch() const { return zeroPulsePitch > 0 ? zeroPulsePitch : rotary != 0 ? kDegreesPerTurn : 10; }
   uint32_t method() const { return static_cast<uint32_t>(refMethod); }
-  // By its name in the control's configuration, in any case. "" or what is wrong.
+  // Sets an attribute by its name in the control's configuration; case does not matter. Returns "", or the error.
   std::string set(std::string_view name, std::string_view value);
   static bool has(std::string_view name);
 };
@@ -51,10 +51,10 @@ struct AxisKey {
   std::string_view attribute;
 };
 bool isAxisKey(std::string_view key);
-// "" or what is wrong.
+// Returns "", or the error.
 std::string readAxisKey(std::string_view key, AxisKey& read);
 
-// Axes of a control are numbered from 1. A mask has a bit an axis: axis n is bit n - 1.
+// Axes of a control are numbered from 1. A mask has one bit per axis: axis n is bit n - 1.
 
 using nc::kMaxAxes;
 
@@ -65,14 +65,14 @@ constexpr AxisMask bitOf(uint32_t index) { return static_cast<AxisMask>(1u << in
 constexpr void clearBit(AxisMask& mask, uint32_t index) { mask = static_cast<AxisMask>(mask & ~bitOf(index)); }
 constexpr void setBit(AxisMask& mask, uint32_t index) { mask = static_cast<AxisMask>(mask | bitOf(index)); }
 
-// What allows axes to move: cells of the program, as masks. What is not said otherwise is as after MODULE_INIT.
+// Cells of the program that permit axes to move, as masks. The default values are those after MODULE_INIT.
 
 struct AxisPermits {
   AxisMask enabled = 0xFFFF;              // MPxPI l.6177
   AxisMask limitPlus = 0, limitMinus = 0; // KHx0, KHx1 l.6674
 };
 
-// What keeps an axis from moving in a direction.
+// The reason why an axis does not move in a direction.
 enum class Hold : uint8_t { None, Disabled, Limit };
 
 constexpr bool atLimit(const AxisPermits& in, uint32_t index, bool negative) {
@@ -83,7 +83,7 @@ constexpr Hold holdOf(const AxisPermits& in, uint32_t index, bool negative, Axis
   return has(enabled, index) ? Hold::None : Hold::Disabled;
 }
 
-// What the cells of axes report of their motions and positions; only axes that exist have any.
+// Motions and positions of axes, as their cells report them; only axes that exist have any.
 
 struct AxisReport {
   AxisMask motion = 0;                           // PO_OSxPI
@@ -91,11 +91,11 @@ struct AxisReport {
   std::array<int64_t, kMaxAxes> positionEx = {}; // B_POL_EX, POSITION_POSk_EX (k < 6): 1/65536 µm
   std::array<int32_t, 6> positionShort = {};     // B_POL: 1/8 µm
 
-  // Axis `index` + 1 is there, in mm (degrees).
+  // Sets the position of axis `index` + 1, in mm (degrees).
   void place(uint32_t index, double position) {
     positionEx[index] = std::llround(position * 1000 * 65536);
     if (index < positionShort.size())
-      positionShort[index] = static_cast<int32_t>(std::llround(position * 8000)); // wraps as the cell does
+      positionShort[index] = static_cast<int32_t>(std::llround(position * 8000)); // wraps like the cell
   }
 };
 

@@ -12,7 +12,7 @@ namespace {
 
 using enum ServiceKind;
 
-// Arguments that a cell may put out of range, of the services `first` to `last`.
+// Ranges of arguments that may come from a cell, of the services `first` to `last`.
 struct Limit {
   ServiceKind first, last;
   uint8_t argument;
@@ -96,7 +96,7 @@ void AxisCells::read(const core::Memory& memory, AxisPermits& permits) const {
   permits.limitMinus = limitMinus_.read(memory);
 }
 
-// A position is the sum of both buffers (l.5988); all of it is in B_POL.
+// A position is the sum of both buffers (l.5988); here B_POL contains all of it.
 void AxisCells::write(const core::Memory& memory, AxisMask which, const AxisReport& report) const {
   motions_.write(memory, which, report.motion);
   directions_.write(memory, which, report.negative);

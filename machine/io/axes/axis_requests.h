@@ -20,26 +20,26 @@ struct WrongOperand {
   std::string_view operand;
   int64_t value = 0;
 };
-// The first operand of a request to axes that is outside what the instruction takes, as a cell may have it: it then
-// does nothing. Nothing: none is, or it is a request to another device.
+// The first operand of an axis request that is out of the instruction's range, which is possible if it comes from a
+// cell; the instruction then does nothing. Nothing: all operands are in range, or the request is for another device.
 std::optional<WrongOperand> outOfRange(const core::ServiceRequest& request);
-// Answers one that does nothing: records stay as they are.
+// Answers a request that does nothing: its records stay unchanged.
 void answerNothing(DeviceCall& call);
 
-// Cells of axes that simulated and real ones have alike (inventory of the services, 1.6, 15.1): what lets them move,
-// the position loop, requests for motions and places.
+// Cells of axes that are the same for simulated and real axes (inventory of the services, 1.6, 15.1): permits, the
+// position loop, requested motions, and positions.
 
-// The names that a bit of each axis has: `#` in the pattern is X, Y, Z and the numbers from 4 on, `%` the number.
+// The name of an axis's bit: `#` in the pattern becomes X, Y, Z or the number from 4 on, `%` the number.
 std::string nameOfAxis(std::string_view pattern, uint32_t axis);
 
-// The places of such bits.
+// The places of one such bit for every axis.
 class AxisBits {
 public:
-  AxisBits() = default; // a program that has nothing
+  AxisBits() = default; // for a program without these cells
   AxisBits(const rung_program& program, std::string_view pattern);
   AxisMask read(const core::Memory& memory) const;
   bool read(const core::Memory& memory, uint32_t axis) const { return memory.read(places_[axis - 1]) != 0; }
-  // Those of the axes in `which`.
+  // Writes the bits of the axes in `which`.
   void write(const core::Memory& memory, AxisMask which, AxisMask mask) const;
 
 private:
@@ -48,13 +48,13 @@ private:
 
 class AxisCells {
 public:
-  AxisCells() = default; // a program that has nothing
+  AxisCells() = default; // for a program without these cells
   explicit AxisCells(const rung_program& program);
 
   void read(const core::Memory& memory, AxisPermits& permits) const;
   const AxisBits& loops() const { return loops_; }     // VAZBA_x: the position loop is closed (l.6306)
   const AxisBits& motions() const { return motions_; } // PO_OSxPI
-  // Of the axes in `which`.
+  // Writes the cells of the axes in `which`.
   void write(const core::Memory& memory, AxisMask which, const AxisReport& report) const;
 
 private:
@@ -69,7 +69,7 @@ private:
 // The owner of the units.
 class PositionTarget {
 public:
-  // `loopClosed`: VAZBA_x of now.
+  // `loopClosed`: current value of VAZBA_x.
   virtual void posInit(int64_t axis, int64_t space, bool loopClosed) = 0;
   virtual PositioningUnits::Mode posMode(int64_t axis, int32_t length, uint16_t acceleration) = 0;
   virtual PositioningUnits::State posControl(int64_t axis, uint32_t feed, bool mp) = 0;
@@ -79,9 +79,9 @@ protected:
   ~PositionTarget() = default;
 };
 
-// The axis of such an order, as it is given; nothing: another order.
+// The axis operand of such a request; nothing for other requests.
 std::optional<int64_t> positionedAxis(const core::ServiceRequest& request);
-// False: another order.
+// Returns false for other requests.
 bool answerPosition(PositionTarget& target, const AxisCells& cells, DeviceCall& call);
 
 } // namespace rung::io

@@ -1,4 +1,4 @@
-// Analogue outputs and positioning units, and axes that are not there.
+// See axis_service.h.
 #include "machine/io/axes/axis_service.h"
 
 #include <algorithm>
@@ -70,13 +70,13 @@ AnalogOutput AxisService::axSpi(int64_t axis, SpindleRole role) {
   return outputs_.switchTo(static_cast<uint32_t>(axis), role);
 }
 
-// What is not a spindle yet becomes one (inventory of the services, 4).
+// An axis that is not a spindle yet becomes one (inventory of the services, 4).
 void AxisService::spiMain(int64_t axis) {
   if ((spindles_ >> (axis - 1) & 1) == 0) axSpi(axis, SpindleRole::Keep);
   outputs_.makeMain(static_cast<uint32_t>(axis));
 }
 
-// ---- for people ----------------------------------------------------------------------------------------------------
+// ---- reports -------------------------------------------------------------------------------------------------------
 
 void AxisService::report(std::vector<std::string>& lines) {
   const auto nameOf = [](uint32_t bit) {
@@ -106,7 +106,7 @@ struct AxisPin {
   PinType type;
   Direction direction;
 };
-enum : uint32_t { kPosition, kHomed, kEnabled, kFault, kCommand, kEnable }; // in kPins
+enum : uint32_t { kPosition, kHomed, kEnabled, kFault, kCommand, kEnable }; // indices into kPins
 constexpr AxisPin kPins[] = {
     {"position-feedback", PinType::Float, Direction::In},
     {"homed", PinType::Bit, Direction::In},
@@ -160,7 +160,7 @@ void AxisPins::write(const PositionedAxes& axes) const noexcept {
 
 namespace {
 
-// Of the element NCAxis: what ramps and speeds go by. Others are about what the machine does itself.
+// Attributes of NCAxis that determine ramps and speeds; the others concern motions of the control itself.
 constexpr std::string_view kDynamics[] = {"Acceleration", "AccelerationEmergency", "FeedRT"};
 
 std::string setLength(double& length, std::string_view attribute, std::string_view value) {
@@ -217,7 +217,8 @@ void PositionedAxes::step(int64_t ns) noexcept {
     if (io::has(added_, i)) step(axes_[i], i + 1, ns);
 }
 
-// Where the drive does not follow, and in the first step, the command is where the axis is: it begins without a jump.
+// In the first step, and while the drive does not follow, the command is the actual position, so the axis starts
+// without a jump.
 void PositionedAxes::step(Axis& axis, uint32_t number, int64_t ns) noexcept {
   const bool isPlace = std::isfinite(axis.in.position);
   if (isPlace && !std::exchange(axis.begun, true)) axis.motion.place(axis.in.position);
@@ -293,7 +294,7 @@ PositioningUnits::State PositionedAxes::posControl(int64_t axis, uint32_t feed, 
 
 void PositionedAxes::posReset(int64_t axis) { units_.release(axes_[index(axis)], static_cast<uint32_t>(axis)); }
 
-// ---- for people ----------------------------------------------------------------------------------------------------
+// ---- reports -------------------------------------------------------------------------------------------------------
 
 void PositionedAxes::note(Masks& masks, Obstacle obstacle, uint32_t number) noexcept {
   masks[static_cast<size_t>(obstacle)].fetch_or(bitOf(number - 1), std::memory_order_relaxed);

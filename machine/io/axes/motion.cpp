@@ -1,4 +1,4 @@
-// Trapezoids.
+// See motion.h.
 #include "machine/io/axes/motion.h"
 
 #include <algorithm>
@@ -11,11 +11,12 @@ namespace {
 
 constexpr double kNsInSecond = 1e9;
 constexpr double kForever = std::numeric_limits<double>::infinity();
-// What differs by less is equal: a nanometre and a nanosecond are far above what rounding does, far below what counts.
+// Smaller differences count as none: a nanometre and a nanosecond are far above rounding errors and far below any
+// relevant difference.
 constexpr double kEqual = 1e-9;
 
 double sign(double value) { return value < 0 ? -1 : 1; }
-// Where a motion of that speed comes to a standstill, from here.
+// The distance to the standstill of a motion at this speed.
 double brakingDistance(double speed, double acceleration) { return speed * std::fabs(speed) / (2 * acceleration); }
 
 } // namespace
@@ -81,7 +82,7 @@ void Motion::moveTo(double target, double speed, double acceleration) {
   end(target, 0);
 }
 
-// By the highest speed from which it can still brake, as the target lies ahead.
+// Approaches a target ahead, with the highest speed from which the axis can still brake.
 void Motion::approach(double target, double speed, double acceleration) {
   const double distance = target - last_.position;
   const double u = last_.speed;
@@ -137,7 +138,7 @@ const PositioningUnits::Unit* PositioningUnits::find(uint32_t number) const {
   return found == units_.end() ? nullptr : found;
 }
 
-// That of the axis, or a free one; null for the seventh axis.
+// The unit of the axis, or a free one; null for the seventh axis.
 PositioningUnits::Unit* PositioningUnits::unitFor(uint32_t number) {
   Unit* const own = find(number);
   return own != nullptr ? own : find(0);

@@ -1,6 +1,6 @@
 // The motion of one axis along an ideal trapezoid: ramps of constant acceleration and runs of constant speed. A motion
-// is planned once, as phases that follow each other, and looked at in each step of time by closed formulas, so nothing
-// accumulates and the end is exact. Lengths in mm (degrees), times in seconds.
+// is planned once, as a sequence of phases, and evaluated in each time step by closed formulas, so errors do not
+// accumulate and the end is exact. Lengths in mm (degrees), times in seconds.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -18,28 +18,28 @@ public:
   double speed() const { return speed_; } // per second, signed
   bool isAtRest() const { return speed_ == 0 && time_ >= duration_; }
   bool isAtRestAt(double place) const { return isAtRest() && position_ == place; }
-  // Seconds from where the motion was planned to its end; infinite for a run.
+  // Seconds from the start of the planned motion to its end; infinite for a run.
   double duration() const { return duration_; }
 
-  // Rests there.
+  // Sets the position; the axis is at rest.
   void place(double position);
 
-  // Orders. One that is given again while it is carried out changes nothing; another one begins from the position and
-  // speed of now. Accelerations are positive.
+  // Commands. Repeating a command in progress changes nothing; another command starts at the current position and
+  // speed. Accelerations are positive.
   void stop(double acceleration) { run(0, acceleration); }
-  // By a ramp to a signed speed, which it keeps.
+  // Ramps to a signed speed and keeps it.
   void run(double speed, double acceleration);
-  // To a target, by at most `speed`; a target that it cannot brake for is passed and come back to.
+  // Moves to a target with at most `speed`; if the axis cannot brake in time, it passes the target and returns to it.
   void moveTo(double target, double speed, double acceleration);
-  // Runs past a position, which lies in the direction of the signed speed and not within `inRange`, and brakes from
-  // there: stops v * v / 2a after it.
+  // Runs past a position, which lies in the direction of the signed speed and beyond `inRange`, and brakes from there:
+  // stops v * v / 2a after it.
   void runPast(double position, double speed, double acceleration);
-  // Where it would begin to move in the direction of the signed speed, and no faster.
+  // The position from which the axis would move in the direction of the signed speed, no faster than it.
   double inRange(double speed, double acceleration) const;
 
-  // So much time passes, at least 0.
+  // Advances the time by `ns`, at least 0.
   void advance(int64_t ns);
-  // A millisecond.
+  // One millisecond.
   void tick() { advance(kTickNs); }
 
 private:
@@ -50,7 +50,7 @@ private:
     bool operator==(const Order&) const = default;
   };
   struct Phase {
-    double begin = 0, position = 0, speed = 0, acceleration = 0; // at its begin
+    double begin = 0, position = 0, speed = 0, acceleration = 0; // values at its begin
   };
 
   bool isNew(const Order& order);
@@ -58,7 +58,7 @@ private:
   void cruise(double distance);
   void append(double seconds, double acceleration, double endPosition, double endSpeed);
   void approach(double target, double speed, double acceleration);
-  // Phases end here; at `position`, which is what they come to but for the last digits.
+  // Completes the plan. `position` is exact; the phases reach it except for rounding errors.
   void end(double position, double speed);
 
   static constexpr uint32_t kPhases = 6;
@@ -66,12 +66,12 @@ private:
   Order order_;
   std::array<Phase, kPhases> phases_ = {};
   uint32_t count_ = 0, phase_ = 0;
-  Phase last_;     // where planning has got to, then the end
-  int64_t ns_ = 0; // since it was planned
+  Phase last_;     // state at the end of the phases so far; finally the end of the motion
+  int64_t ns_ = 0; // since the motion was planned
   double time_ = 0, duration_ = 0;
 };
 
-// What all movers of an axis share: its configuration, its commanded motion, and which of them has it.
+// State of an axis shared by all its movers: its configuration, its commanded motion, and its current mover.
 
 enum class Mover : uint8_t { None, SpindlePositioning, PositioningUnit, Reference, Manual };
 
@@ -87,7 +87,7 @@ struct DrivenAxis {
     requested = true;
     negative = inNegative;
   }
-  // Its mover leaves it: it brakes to a standstill, and its motion is reported until then.
+  // The mover releases the axis: it brakes to a standstill, and its motion is reported until then.
   void leave(double acceleration) {
     mover = Mover::None;
     motion.stop(acceleration);
@@ -97,13 +97,13 @@ struct DrivenAxis {
 // The six positioning units (man. chapter 19): POS_INIT, POS_MODE, POS_CONTROL, POS_RESET. A unit moves an axis by a
 // distance, fully controlled by the PLC. Axes are numbered from 1.
 
-inline constexpr int64_t kLastSpace = 6; // of the transformations, from 0 (l.12166)
+inline constexpr int64_t kLastSpace = 6; // index of the last transformation, from 0 (l.12166)
 
-// Status record of POS_CONTROL as a word, the first byte low (l.12065-12093).
+// Status record of POS_CONTROL as a word, first byte in the low bits (l.12065-12093).
 inline constexpr uint16_t kUnitMoves = 0x0001, kUnitNegative = 0x0002, kUnitArrived = 0x0008;     // JEDE, SMER, POL
 inline constexpr uint16_t kUnitAvailable = 0x0100, kUnitProgrammed = 0x0200, kUnitError = 0x0400; // DISP, PROG, ERR
 
-// Bits of the second byte of the control record (l.12101-12133); the others stay as they are.
+// Bits of the second byte of the control record (l.12101-12133); the others stay unchanged.
 inline constexpr uint8_t kControlBits = 0x0F;
 inline constexpr uint8_t kControlMp = 1, kControlInit = 4, kControlContinue = 8;
 
@@ -112,12 +112,12 @@ public:
   static constexpr uint32_t kUnits = 6; // l.12040
 
   struct Mode {
-    bool accepted = false; // else the control record stays, and is not remembered
-    uint8_t control = 0;   // of kControlBits
+    bool accepted = false; // otherwise the control record stays unchanged and is not remembered
+    uint8_t control = 0;   // bits in kControlBits
   };
   struct State {
     uint16_t status = 0;
-    bool programmed = false; // a control record is remembered, whose bits are to be `control`
+    bool programmed = false; // a control record is remembered, whose bits must become `control`
     uint8_t control = 0;
   };
 
@@ -129,11 +129,11 @@ public:
   // Speed in 1/65536 mm/min (l.12258).
   State control(const DrivenAxis& axis, uint32_t number, uint32_t feed, bool mp);
   void release(DrivenAxis& axis, uint32_t number);
-  // The axis became a spindle.
+  // The axis has become a spindle: its unit loses it.
   void lose(DrivenAxis& axis, uint32_t number);
   void fail(uint32_t number) { setBit(errors_, number - 1); }
   bool holds(uint32_t number) const { return find(number) != nullptr; }
-  // Fault, HALT: they brake.
+  // Fault, HALT: all units brake.
   void brakeAll();
 
   void drive(DrivenAxis& axis, uint32_t number, const AxisPermits& in);
@@ -144,10 +144,10 @@ private:
     uint32_t axis = 0;       // 0: free
     bool programmed = false; // PROG
     bool arrived = false;    // POL
-    bool braking = false;    // a motion that POS_INIT has ended
-    bool placed = false;     // `target` is known: it has come to a standstill
-    bool started = false;    // has moved since POS_MODE
-    bool initiated = false;  // a tick since POS_MODE: INIC has become CONT
+    bool braking = false;    // the motion was ended by POS_INIT
+    bool placed = false;     // `target` is known: the axis has come to a standstill
+    bool started = false;    // the axis has moved since POS_MODE
+    bool initiated = false;  // a tick has passed since POS_MODE: INIC has become CONT
     bool mp = false;
     double feed = 0; // per second
     double acceleration = 0, length = 0, target = 0;
@@ -161,7 +161,7 @@ private:
   uint16_t statusOf(const DrivenAxis& axis, uint32_t number) const;
 
   std::array<Unit, kUnits> units_ = {};
-  AxisMask errors_ = 0; // ERR, until a POS_INIT succeeds
+  AxisMask errors_ = 0; // ERR, until a POS_INIT succeeds; one bit per axis
 };
 
 } // namespace rung::io

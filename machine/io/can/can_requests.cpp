@@ -14,7 +14,7 @@ namespace {
 bool isChannel(const DeviceCall& call) { return call.arg(0) == 1 || call.arg(0) == 2; }
 uint32_t channelOf(const DeviceCall& call) { return static_cast<uint32_t>(call.arg(0)); }
 
-// Bytes of the items of INOUTS, by their places.
+// Widths of the items of INOUTS, by offset.
 std::array<uint8_t, inouts::kBytes> itemWidths() {
   std::array<uint8_t, inouts::kBytes> widths{};
   widths.fill(1);
@@ -24,7 +24,7 @@ std::array<uint8_t, inouts::kBytes> itemWidths() {
   return widths;
 }
 
-// Bytes that an argument names, in another program; nothing: it does not have them.
+// The place in another program of the bytes that an argument names; nothing: it does not have them.
 std::optional<int64_t> movedBytes(const runtime::Relocation& relocation, int64_t argument) noexcept {
   const nc::technol::ArgumentBytes at = nc::technol::bytesOfArgument(argument);
   runtime::Ref bytes = runtime::intRef(at.space, at.first, 8);
@@ -120,7 +120,7 @@ std::string textOf(const EndedOrder& order) {
          " has ended, as the new program does not have its " + lacks;
 }
 
-// Programs name an item by the member.
+// Programs name an item by the offset of the member.
 InoutsItem CanCalls::itemAt(int64_t offset) const {
   const auto at = static_cast<uint32_t>(offset);
   return {.offset = at, .bytes = at < itemWidths_.size() ? itemWidths_[at] : 1u};
@@ -157,8 +157,8 @@ void CanCalls::showDrive(const core::Memory& memory, const CanPlaces& places) {
   places.writeDriveAnswer(memory, can_.driveAnswer());
 }
 
-// All twelve bytes of the buffer (inventory of the services, 9), then the procedure with the channel in DR (man.
-// l.3834-3840).
+// Copies all twelve bytes to the buffer (inventory of the services, 9), then runs the procedure with the channel in DR
+// (man. l.3834-3840).
 void CanCalls::run(runtime::Instance& instance, const CanPlaces& places, uint32_t channel, const CanPacket& packet) {
   const CanMatches matches = can_.channel(channel).deliver(packet);
   for (const uint32_t handle : matches.all()) {

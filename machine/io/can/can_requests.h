@@ -1,4 +1,4 @@
-// CAN_*: packets, orders, units and drives, and their cells (man. ch. 9, 13.14).
+// CAN_*: packets, packet subscriptions, units and drives, and their cells (man. ch. 9, 13.14).
 #pragma once
 #include <array>
 #include <optional>
@@ -14,29 +14,29 @@
 
 namespace rung::io {
 
-// Where the cells lie in a program; the tasks of its event procedures.
+// The places of the cells in a program, and the tasks of its event procedures.
 class CanPlaces {
 public:
-  CanPlaces() = default; // a program that has nothing
+  CanPlaces() = default; // for a program without these cells
   explicit CanPlaces(const rung_program& program);
 
-  // The program resets bits of `errors`, ERRLI_PxOUT.
+  // Reads the program's commands, and `errors`, the bits ERRLI_PxOUT, which the program resets.
   void read(const core::Memory& memory, UnitOrders& unitOrders, DriveOrders& driveOrders,
             std::array<uint8_t, kOutputPorts>& errors) const;
-  // Of the units and drives that exist.
+  // Writes the states of the units and drives that exist.
   void write(const core::Memory& memory, const UnitStates& units, const DriveStates& drives,
              const CanController& can) const;
-  // What others than the units have put into the input ports since they were written.
+  // Reads the input ports that code other than the units has changed since they were written.
   void readTerminals(const core::Memory& memory, const UnitStates& written,
                      std::array<uint8_t, kInputPorts>& terminals) const;
-  // CAN_DRIVE_CMD of all becomes 0.
+  // Sets CAN_DRIVE_CMD of all drives to 0.
   void disableDrives(const core::Memory& memory) const;
-  // CAN_AX_RECV_PACKET, and CAN_AX_BUSY becomes 0.
+  // Writes CAN_AX_RECV_PACKET, and sets CAN_AX_BUSY to 0.
   void writeDriveAnswer(const core::Memory& memory, const CanPacket& answer) const;
   const nc::technol::Procedure* procedure(uint64_t number) const {
     return number < procedures_.size() ? &procedures_[number].procedure : nullptr;
   }
-  // The number of the procedure that another program has as `number`; nothing: none of its name.
+  // The number of the procedure with the name that `number` has in another program; nothing: there is none.
   std::optional<uint64_t> numberOf(const CanPlaces& other, uint64_t number) const noexcept;
 
 private:
@@ -58,36 +58,36 @@ private:
   std::vector<NamedProcedure> procedures_;
 };
 
-// An order of packets that has ended because another program has taken over, and what that one does not have.
+// A packet subscription (CAN_RECV_REQ) that has ended because the new program lacks its buffer or procedure.
 struct EndedOrder {
   uint32_t handle = 0;
   bool lacksBuffer = false, lacksProcedure = false;
 };
-// As the log has it.
+// The sentence for the log.
 std::string textOf(const EndedOrder& order);
 
 class CanCalls {
 public:
   explicit CanCalls(CanController& can);
 
-  // At a power-on and START PLC: no order is left.
+  // At a power-on and START PLC: deletes all subscriptions.
   void clear() { orders_ = {}; }
-  // Another program has taken over: orders continue with its procedures and its buffers. Those that lack one of them
+  // Another program has taken over: subscriptions continue with its procedures and buffers; those that lack one of them
   // end. Allocates nothing.
   void relocate(const CanPlaces& former, const CanPlaces& now, const runtime::Relocation& relocation) noexcept;
-  // The oldest such order that was not taken, of at most 64; any one thread.
+  // The oldest ended subscription not yet taken, of at most 64; any one thread.
   bool takeEnded(EndedOrder& order) { return ended_.pop(order); }
   void answer(DeviceCall& call);
-  // After the ticks of a scan: what has come goes into the buffers of orders, and their procedures run; else it waits
-  // for CAN_RECV. A program that is stopped has no orders, and its packets are dropped.
+  // After the ticks of a scan: copies received packets to the buffers of matching subscriptions and runs their
+  // procedures; other packets wait for CAN_RECV. A stopped program has no subscriptions, and its packets are dropped.
   void deliver(runtime::Instance& instance, const CanPlaces& places);
-  // The answer of a drive, and whether one is waited for.
+  // Writes the answer of a drive, and whether an answer is awaited.
   void showDrive(const core::Memory& memory, const CanPlaces& places);
 
 private:
   struct Order {
-    uint32_t handle = 0; // 0: none
-    int64_t buffer = 0;  // nc::technol::bytesArgument
+    uint32_t handle = 0; // 0: unused
+    int64_t buffer = 0;  // of nc::technol::bytesArgument
     uint64_t procedure = 0;
   };
   void send(DeviceCall& call);
@@ -102,7 +102,7 @@ private:
   void run(runtime::Instance& instance, const CanPlaces& places, uint32_t channel, const CanPacket& packet);
 
   CanController& can_;
-  const std::array<uint8_t, inouts::kBytes> itemWidths_; // of INOUTS, by place
+  const std::array<uint8_t, inouts::kBytes> itemWidths_; // widths of INOUTS items, by offset
   std::array<Order, kMostCanOrders> orders_ = {};
   core::FixedRing<EndedOrder, 64> ended_;
   bool asksDrive_ = false;

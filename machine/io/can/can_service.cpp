@@ -1,4 +1,4 @@
-// CAN beside a program (see can_service.h).
+// See can_service.h.
 #include "machine/io/can/can_service.h"
 
 #include <algorithm>
@@ -10,7 +10,7 @@ namespace rung::io {
 namespace {
 
 constexpr int64_t kTickNs = 1'000'000;
-constexpr int64_t kMostTicks = 20; // of one step: what is later is left out
+constexpr int64_t kMostTicks = 20; // in one step; later ones are skipped
 
 } // namespace
 
@@ -27,7 +27,8 @@ void CanService::adopt(uint32_t channel, int descriptor) {
   control_.connect(channel, ports_[channel - 1]);
 }
 
-// The thread of a port takes packets within a millisecond.
+// Transmits the last outputs, and gives the threads of the ports, which take packets within a millisecond, time for
+// them.
 void CanService::close() {
   constexpr int kLastTicks = 16; // SyncPeriod is at most 15
   if (!exists()) return;
@@ -61,7 +62,8 @@ void CanService::powerOn() noexcept {
   drives_ = {};
 }
 
-// Of ERRLI_PnOUT the program resets bits, and the units set them meanwhile (man. l.3526-3531).
+// The program resets bits of ERRLI_PnOUT, while units set them (man. l.3526-3531): only bits that the program has reset
+// are cleared.
 void CanService::take(const core::Memory& memory, const CanPlaces& places) noexcept {
   if (!exists()) return;
   std::array<uint8_t, kOutputPorts> seen{};

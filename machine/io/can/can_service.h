@@ -1,5 +1,5 @@
-// The CAN channels of this machine beside a program: interfaces by SocketCAN, the control's units and drives, orders of
-// packets, and the cells of all that (man. ch. 9, 13.14).
+// The CAN channels of this machine for a program: SocketCAN interfaces, the control's units and drives, packet
+// subscriptions, and their cells (man. ch. 9, 13.14).
 #pragma once
 #include <array>
 #include <string>
@@ -15,39 +15,39 @@ public:
   // ---- before start
   CanSettings& settings() { return settings_; }
   const CanSettings& settings() const { return settings_; }
-  // The channel, 1 or 2, is this interface, which may be switched off, and come and go. "" or why this machine cannot
-  // serve it at all.
+  // Connects channel 1 or 2 to this interface, which may be down, and disappear and return. Returns "", or why this
+  // machine cannot serve it at all.
   std::string open(uint32_t channel, const std::string& interface);
-  // The channel is a descriptor that takes and gives a `can_frame` at a time, and becomes the service's.
+  // Connects the channel to a descriptor that reads and writes one `can_frame` at a time; the service closes it.
   void adopt(uint32_t channel, int descriptor);
   void configure() { settings_.configure(control_); }
 
-  // ---- the end of the host, and reports The program is over: units get outputs that are 0, drives are disabled, and
-  // the interfaces are left.
+  // ---- power-off and reports
+  // The program has ended: sets the outputs of units to 0, disables drives, and closes the interfaces.
   void close();
-  // Null: the channel does not exist. Counts and state: any thread.
+  // Null: the channel does not exist. Counts and state may be read by any thread.
   const SocketCan* port(uint32_t channel) const { return isOpen_[channel - 1] ? &ports_[channel - 1] : nullptr; }
 
-  // Orders that a replacement of the program has ended, and messages about drives and units; any one thread.
+  // Packet subscriptions ended by a replacement of the program, and messages about drives and units; any one thread.
   bool takeEnded(EndedOrder& order) { return calls_.takeEnded(order); }
   bool takeMessage(DriveMessage& message) { return ofDrives_.pop(message); }
   bool takeMessage(UnitMessage& message) { return ofUnits_.pop(message); }
 
-  // ---- the scan; nothing waits, allocates or locks
-  // The clock has moved on: what is due of each millisecond.
+  // ---- scan thread; nothing waits, allocates or locks
+  // Advances the clock: does the work of each millisecond that has passed.
   void step(int64_t ns) noexcept;
   // At a power-on, before MODULE_INIT.
   void powerOn() noexcept;
   void answer(DeviceCall& call) { calls_.answer(call); }
-  // Before MODULE_INPUT: what has come is in the cells, and procedures of orders have run.
+  // Before MODULE_INPUT: writes received data to the cells, and runs the procedures of packet subscriptions.
   void show(runtime::Instance& instance, const CanPlaces& places) noexcept;
-  // At the end of a scan: what the program wants until the next.
+  // At the end of a scan: reads the program's commands for the time until the next scan.
   void take(const core::Memory& memory, const CanPlaces& places) noexcept;
-  // A program that is stopped has no orders, and its packets are dropped.
+  // A stopped program has no packet subscriptions, and its packets are dropped.
   void dropPackets(runtime::Instance& instance, const CanPlaces& places) noexcept;
-  // After a fault: drives are disabled.
+  // After a fault: disables drives.
   void disableDrives() noexcept { driveOrders_ = {}; }
-  // Another program has taken over: orders of packets continue with its buffers and procedures.
+  // Another program has taken over: packet subscriptions continue with its buffers and procedures.
   void relocate(const CanPlaces& former, const CanPlaces& now, const runtime::Relocation& relocation) noexcept {
     calls_.relocate(former, now, relocation);
   }
@@ -64,11 +64,11 @@ private:
   UnitOrders unitOrders_;
   DriveOrders driveOrders_;
   UnitStates units_;
-  std::array<uint8_t, kOutputPorts> shownErrors_{}; // in the cells
+  std::array<uint8_t, kOutputPorts> shownErrors_{}; // value last written to the cells
   DriveStates drives_;
   core::FixedRing<DriveMessage, 64> ofDrives_;
   core::FixedRing<UnitMessage, 256> ofUnits_;
-  int64_t restNs_ = 0; // of the millisecond that has begun
+  int64_t restNs_ = 0; // elapsed part of the current millisecond
 };
 
 } // namespace rung::io

@@ -30,7 +30,7 @@ CanMatches CanChannel::deliver(const CanPacket& packet) {
   return matches;
 }
 
-// Orders of packets.
+// Packet subscriptions.
 
 namespace {
 

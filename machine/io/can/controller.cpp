@@ -24,7 +24,7 @@ void CanController::transmit(const UnitOrders& unitOrders, UnitStates& unitState
   for (uint32_t channel = 1; channel <= kChannels; ++channel) sendOwn(channel);
 }
 
-// A packet that the port refuses stays the next one.
+// A packet that the port refuses remains the next one.
 void CanController::sendOwn(uint32_t channel) {
   updateState(channel);
   CanChannel& own = channels_[channel - 1];

@@ -1,8 +1,9 @@
-// The two CAN channels of a control with all that it does itself on them: drives on channel 1, units on channel 2 (man.
-// l.3242, l.9210). The buses are ports, simulated or real; without a port a channel is not active.
+// The two CAN channels of a control and the control's own traffic on them: drives on channel 1, units on channel 2
+// (man. l.3242, l.9210). The buses are ports, simulated or real; without a port a channel is not active.
 //
-// A millisecond: transmit; a simulated bus works; receive. Then the host of the program takes the packets that have
-// come, one by one (takeReceived), and gives them to channel(n).deliver, which says whose procedures are due.
+// Sequence of each millisecond: transmit; a simulated bus works; receive. Then the program's host takes the received
+// packets one by one (takeReceived) and passes them to channel(n).deliver, which returns the subscriptions whose
+// procedures must run.
 #pragma once
 #include "machine/io/can/drives.h"
 #include "machine/io/can/units.h"
@@ -17,7 +18,7 @@ public:
   CanController(const CanController&) = delete;
   CanController& operator=(const CanController&) = delete;
 
-  // Before the first tick. Ports outlive the controller; channels are 1 and 2.
+  // To be called before the first tick. Ports must outlive the controller; channels are 1 and 2.
   void connect(uint32_t channel, CanPort& port) { ports_[channel - 1] = &port; }
   CanUnits& units() { return units_; }
   CanDrives& drives() { return drives_; }
@@ -26,15 +27,15 @@ public:
 
   // At a power-on.
   void power();
-  // A millisecond before the first one of the program; see CanUnits::prepare.
+  // One millisecond before the first one of the program; see CanUnits::prepare.
   void prepareUnits() { units_.prepare(*ports_[kUnitChannel - 1]); }
-  // START PLC: orders are deleted, all else stays.
+  // START PLC: deletes packet subscriptions; everything else stays.
   void startProgram() { orders_.clear(); }
 
-  // What the control and the program send goes to the ports.
+  // Passes packets of the control and the program to the ports.
   void transmit(const UnitOrders& unitOrders, UnitStates& unitStates, const DriveOrders& driveOrders,
                 DriveStates& driveStates);
-  // What has come from the ports is taken by the control, or waits for takeReceived.
+  // Takes packets from the ports, for the control or for takeReceived.
   void receive();
 
   // ---- instructions
@@ -43,7 +44,7 @@ public:
   CanChannel& channel(uint32_t channel) { return channels_[channel - 1]; }
   // CAN_RECV_DEL, CAN_RECV_END.
   CanOrders& orders() { return orders_; }
-  // CAN_SYSIO_READ, CAN_SYSIO_WRITE: false where the channel is not active, or has no such unit.
+  // CAN_SYSIO_READ, CAN_SYSIO_WRITE: false if the channel is not active, or has no such unit.
   bool readItem(uint32_t channel, uint32_t group, uint32_t board, InoutsItem item, uint32_t& value) const;
   bool writeItem(uint32_t channel, uint32_t group, uint32_t board, InoutsItem item, uint32_t value);
   // CAN_AX_SEND, and the cells CAN_AX_BUSY and CAN_AX_RECV_PACKET.
@@ -53,17 +54,17 @@ public:
 
   // ---- packets
 
-  // The oldest packet that has come for the program.
+  // The oldest received packet for the program.
   bool takeReceived(uint32_t channel, CanPacket& packet) { return received_[channel - 1].pop(packet); }
-  // One that has come by no port.
+  // Adds a packet that does not come from a port.
   void putReceived(uint32_t channel, const CanPacket& packet) { received_[channel - 1].pushAnyway(packet); }
-  // The oldest packet of the program's CAN_SEND that went to the port; of more than 1024 the oldest is lost.
+  // The oldest packet of the program's CAN_SEND that was passed to the port; of more than 1024, the oldest are lost.
   bool takeSent(uint32_t channel, CanPacket& packet) { return sent_[channel - 1].pop(packet); }
-  // Messages 4217 and 4219 of the control, and what it says of units.
+  // Messages 4217 and 4219 of the control, and messages about units.
   bool takeMessage(DriveMessage& message) { return drives_.takeMessage(message); }
   bool takeMessage(UnitMessage& message) { return units_.takeMessage(message); }
 
-  // The channel has the state of its port again, which may change between two ticks.
+  // Sets the channel's state to that of its port, which may change between two ticks.
   void updateState(uint32_t channel);
 
 private:

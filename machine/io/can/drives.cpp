@@ -1,4 +1,4 @@
-// The drives as the control sees them.
+// The drives as seen by the control.
 #include "machine/io/can/drives.h"
 
 #include "rtlib/text/hex.h"
@@ -11,8 +11,8 @@ namespace {
 constexpr uint16_t kDisableVoltage = 0x00, kShutdown = 0x06, kSwitchOn = 0x07, kEnableOperation = 0x0F;
 constexpr uint16_t kStateBits = 0x4F, kSwitchOnDisabled = 0x40;
 
-constexpr uint8_t kStatusBytes = 4; // of TPDO1
-constexpr uint8_t kCodeBytes = 2;   // of an emergency
+constexpr uint8_t kStatusBytes = 4; // bytes used in TPDO1
+constexpr uint8_t kCodeBytes = 2;   // bytes of an emergency
 
 // Emergencies of the ServoStar in the order of the manual's list, whose numbers begin with 1 (l.9656-9740).
 constexpr uint16_t kEmergencies[] = {0x1000, 0x1080, 0x2330, 0x3100, 0x3110, 0x3120, 0x3130, 0x4110, 0x4210, 0x4310,
@@ -43,8 +43,8 @@ void CanDrives::reset() {
   messages_.clear();
 }
 
-// The brake counts before the enable (man. l.9377-9384); neither: switched on without torque. The states between are
-// passed one by one. Bit 7, which would reset a fault, is the program's (CAN_AX_SEND).
+// Brake has priority over enable (man. l.9377-9384); without both, the drive is on without torque. The intermediate
+// states are passed one by one. Bit 7, which would reset a fault, is left to the program (CAN_AX_SEND).
 uint16_t CanDrives::controlWord(Drive& drive, uint16_t command) {
   if (drive.type == DriveType::Unidrive) return command;
   if ((drive.status & kDriveFault) != 0)
@@ -59,7 +59,7 @@ uint16_t CanDrives::controlWord(Drive& drive, uint16_t command) {
 }
 
 void CanDrives::tick(const DriveOrders& orders, DriveStates& states, CanPort& port) {
-  if (isToSend_) port.transmit(question_); // a bus that takes nothing now does not get it later
+  if (isToSend_) port.transmit(question_); // not repeated if the bus does not accept it now
   isToSend_ = false;
   if (count_ == 0) return;
   if (!started_) started_ = port.transmit(nodeCommand(kStartNode, kAllNodes));
@@ -78,7 +78,7 @@ void CanDrives::tick(const DriveOrders& orders, DriveStates& states, CanPort& po
   }
 }
 
-// A drive that does not answer is neither enabled nor braked, as far as the program can rely on it.
+// For the program, a drive that does not answer is neither enabled nor braked.
 void CanDrives::watch(uint32_t number, CanPort& port) {
   Drive& drive = drives_[number - 1];
   if (++drive.silentMs % kDriveTimeoutMs != 0) return;
@@ -100,7 +100,7 @@ bool CanDrives::take(const CanPacket& packet) {
   Drive& drive = drives_[node - 1];
   drive.silentMs = 0;
   if (packet.isObject(kTpdo1)) {
-    if (packet.length < kStatusBytes) return true; // it says nothing
+    if (packet.length < kStatusBytes) return true; // without content
     drive.status = static_cast<uint16_t>(numberAt(packet.data, 2));
     drive.manufacturer = static_cast<uint16_t>(numberAt(packet.data + 2, 2));
     return true;

@@ -1,5 +1,5 @@
-// Service data objects of CANopen (CiA 301), as far as they fit packets of at most four bytes of data, with the first
-// segment of an upload. Both sides use it: the control, and simulated units and drives.
+// CANopen service data objects (CiA 301) that fit packets of at most four data bytes, and the first segment of an
+// upload. Used by both sides: the control, and simulated units and drives.
 #pragma once
 #include <array>
 #include <string>
@@ -23,7 +23,7 @@ struct Object {
   bool operator==(const Object&) const = default;
 };
 
-// Objects that every node has (CiA 301).
+// Objects of every node (CiA 301).
 inline constexpr Object kDeviceType{0x1000, 0}, kErrorRegister{0x1001, 0}, kName{0x1008, 0},
     kHardwareVersion{0x1009, 0}, kSoftwareVersion{0x100A, 0}, kVendor{0x1018, 1};
 
@@ -35,12 +35,12 @@ inline uint32_t value(const CanPacket& packet) { return numberAt(packet.data + 4
 
 inline bool isWrite(const CanPacket& request) { return (command(request) & 0xE2) == 0x22; } // expedited
 inline bool isAbort(const CanPacket& answer) { return command(answer) == kAbort; }
-// Bytes of an expedited request or answer; 4 where it does not say.
+// Data bytes of an expedited request or answer; 4 if the size is not indicated.
 inline uint32_t bytes(const CanPacket& packet) {
   return (command(packet) & 1) != 0 ? 4 - ((command(packet) >> 2) & 3) : 4;
 }
 
-// 2Fh, 2Bh, 27h, 23h for 1 to 4 bytes; with 20h more it is the answer to a reading (4Fh, 4Bh, 47h, 43h).
+// 2Fh, 2Bh, 27h, 23h for 1 to 4 bytes; plus 20h, it is the answer to a read request (4Fh, 4Bh, 47h, 43h).
 inline uint8_t writeCommand(uint32_t bytes) { return static_cast<uint8_t>(0x23 | (4 - bytes) << 2); }
 
 inline CanPacket packet(uint32_t id, uint8_t command, Object object, uint32_t value) {
@@ -65,10 +65,10 @@ inline CanPacket abort(uint32_t node, Object object, uint32_t code) {
 
 } // namespace sdo
 
-// The control's side of the drives on CAN channel 1 (man. 13.14): command words go to them and status words come from
-// them with each SYNC, CAN_AX_SEND asks one by SDO, emergency packets become messages of the control.
+// The control's side of the drives on CAN channel 1 (man. 13.14): exchanges command and status words with each SYNC,
+// sends the SDO requests of CAN_AX_SEND, and turns emergency packets into messages of the control.
 //
-// RPDO1 is the control word of CiA 402, of a Unidrive CAN_DRIVE_CMD; TPDO1 is the status word and CAN_DRIVE_MSTAT.
+// RPDO1 is the control word of CiA 402, for a Unidrive CAN_DRIVE_CMD; TPDO1 is the status word and CAN_DRIVE_MSTAT.
 
 inline constexpr uint32_t kMostDrives = 16;
 inline constexpr uint32_t kDriveTimeoutMs = 100;
@@ -86,27 +86,27 @@ struct DriveOrders {
 };
 
 struct DriveStates {
-  std::array<uint16_t, kMostDrives> status{};       // CAN_DRIVE_STAT; 0: no drive, or one that does not answer
+  std::array<uint16_t, kMostDrives> status{};       // CAN_DRIVE_STAT; 0: no drive, or it does not answer
   std::array<uint16_t, kMostDrives> manufacturer{}; // CAN_DRIVE_MSTAT
 };
 
 // A message of the control about a drive (man. l.9627-9653).
 struct DriveMessage {
   static constexpr uint16_t kEmergency = 4217, kTimeout = 4219;
-  uint16_t number = 0;    // 4217: emergency; 4219: the drive is silent
+  uint16_t number = 0;    // 4217: emergency; 4219: the drive does not answer
   uint16_t drive = 0;     // from 1
-  uint16_t fault = 0;     // row of the list of emergencies (man. l.9656 ...), 0: not in it
+  uint16_t fault = 0;     // row in the list of emergencies (man. l.9656 ...), 0: not listed
   uint16_t emergency = 0; // error code of CiA 301
 
   bool operator==(const DriveMessage&) const = default;
 };
 
-// As the log has it.
+// The sentence for the log.
 std::string textOf(const DriveMessage& message);
 
 class CanDrives {
 public:
-  // Before the first tick. Drives have the nodes 1 to `drives`, which are the axes' numbers (man. l.9203).
+  // To be called before the first tick. Drives have the nodes 1 to `drives`, which are the axis numbers (man. l.9203).
   void configure(uint32_t drives) { count_ = drives; }
   void setType(uint32_t drive, DriveType type) { drives_[drive - 1].type = type; }
   void setSyncPeriod(uint32_t ms) { syncPeriod_ = ms; }
@@ -114,12 +114,12 @@ public:
 
   void reset();
   void tick(const DriveOrders& orders, DriveStates& states, CanPort& port);
-  // A packet has come. True: the control alone was meant.
+  // Processes a received packet. Returns true if the packet is only for the control.
   bool take(const CanPacket& packet);
-  // The oldest message that was not taken; of more than 16 the newest are lost.
+  // The oldest message not yet taken; of more than 16, the newest are lost.
   bool takeMessage(DriveMessage& message) { return messages_.pop(message); }
 
-  // CAN_AX_SEND: fills in what the program leaves open of CAN_AX_SEND_PACKET and sends it (man. l.9480-9493).
+  // CAN_AX_SEND: completes CAN_AX_SEND_PACKET and sends it (man. l.9480-9493).
   void send(uint32_t axis, CanPacket& packet);
   // CAN_AX_BUSY, CAN_AX_RECV_PACKET.
   uint8_t busy() const { return waitsFor_ != 0 ? 0xFF : 0; }
@@ -129,7 +129,7 @@ private:
   struct Drive {
     DriveType type = DriveType::Kollmorgen;
     uint16_t status = 0, manufacturer = 0;
-    bool mustRelease = false; // after a fault: enabled again when the program has taken the command back
+    bool mustRelease = false; // after a fault: enabled again only when the program has withdrawn the command
     uint32_t silentMs = 0;
   };
   static uint16_t controlWord(Drive& drive, uint16_t command);
@@ -140,15 +140,15 @@ private:
   uint32_t syncPeriod_ = 1, sinceSync_ = 0;
   bool started_ = false;
 
-  uint32_t waitsFor_ = 0; // node; 0: none
+  uint32_t waitsFor_ = 0; // node whose answer is awaited; 0: none
   bool isToSend_ = false;
   CanPacket question_, answer_;
 
   BoundedQueue<DriveMessage, 16> messages_;
 };
 
-// The structure INOUTS, of which the control has one for each of its units (man. l.4074-4185): bytes in the order of
-// the signals' table, without gaps. Programs read and write its items by CAN_SYSIO_READ and CAN_SYSIO_WRITE.
+// The structure INOUTS, one for each unit of the control (man. l.4074-4185): bytes in the order of the table of
+// signals, without gaps. Programs read and write its items with CAN_SYSIO_READ and CAN_SYSIO_WRITE.
 
 struct InoutsItem {
   uint32_t offset = 0, bytes = 1;
@@ -164,7 +164,7 @@ inline constexpr uint32_t kShort = 44, kSend = 47, kAnswer = 59; // SHORT_OUT0-S
 inline constexpr InoutsItem kRpdoCount{71, 2}, kTpdoCount{73, 2}, kFirstIn{75, 2}, kFirstOut{77, 2}, kModeNow{79},
     kModePhase{80};
 inline constexpr uint32_t kKeys = 81, kEncoder = 85; // TL0-TL3, IRC0, IRC1
-inline constexpr uint32_t kBytes = 109;              // with five pointers, which are the control's own
+inline constexpr uint32_t kBytes = 109;              // including five pointers that only the control uses
 } // namespace inouts
 
 // MODE (man. l.4078).

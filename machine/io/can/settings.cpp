@@ -1,4 +1,4 @@
-// Settings of the CAN channels (see settings.h). Attributes have the names of the control's own configuration.
+// Configuration of the CAN channels (see settings.h). Attributes have the names of the control's own configuration.
 #include "machine/io/can/settings.h"
 
 #include <algorithm>
@@ -34,7 +34,7 @@ std::string noAttribute(std::string_view key, uint32_t channel) {
                          "Knob[i].CONTROL, SyncPeriod, CanSpeed, ServicePeriod and PhysicalCanChannel");
 }
 
-// "" or what the key takes instead of the value.
+// Returns "", or a message with the values that the key takes.
 template <class Value>
 std::string put(Value& to, std::string_view key, std::string_view value, int64_t least, int64_t most,
                 const std::string& what) {
@@ -79,7 +79,7 @@ std::optional<std::string> CanSettings::setChannel(std::string_view key, std::st
   return noAttribute(key, channel);
 }
 
-// "CAN[1].INOUT08[0].CONTROL": units count from 0 here.
+// "CAN[1].INOUT08[0].CONTROL"; here units are numbered from 0.
 std::optional<std::string> CanSettings::setUnit(std::string_view key, std::string_view rest, std::string_view value) {
   rest.remove_prefix(1);
   for (uint32_t group = 0; group < kUnitGroups; ++group) {

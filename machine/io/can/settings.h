@@ -1,4 +1,4 @@
-// How the CAN channels of a control are set: attributes of CANChannel (man. l.3242-3285, l.9210-9240), control bytes of
+// Configuration of a control's CAN channels: attributes of CANChannel (man. l.3242-3285, l.9210-9240), control bytes of
 // units, drives.
 #pragma once
 #include <array>
@@ -22,12 +22,12 @@ struct CanSettings {
   uint32_t drives = 0;
   std::array<DriveType, kMostDrives> driveTypes{};
 
-  // "CAN[1].InOut08Cnt", "CAN[1].INOUT08[0].CONTROL", "CAN[0].Drives", "drive.2.type" ... "" done, a text: what is
-  // wrong; nothing: a key of something else. Names in any case.
+  // Sets a key, "CAN[1].InOut08Cnt", "CAN[1].INOUT08[0].CONTROL", "CAN[0].Drives", "drive.2.type" ...; case does not
+  // matter. Returns "", or the error; nothing if the key is not one of CAN.
   std::optional<std::string> set(std::string_view key, std::string_view value);
-  // Active, or with units or drives; `channel` is 1 or 2.
+  // Whether the channel is active, or has units or drives; `channel` is 1 or 2.
   bool isActive(uint32_t channel) const;
-  // Before the first tick.
+  // To be called before the first tick.
   void configure(CanController& control) const;
 
 private:

@@ -1,4 +1,4 @@
-// SocketCAN (see socket_can.h). The headers of the kernel are all that it needs.
+// SocketCAN (see socket_can.h). Needs only the kernel's headers.
 #include "machine/io/can/socket_can.h"
 
 #include <linux/can.h>
@@ -18,9 +18,9 @@
 namespace rung::io {
 namespace {
 
-constexpr int kTurnMs = 1; // a packet waits at most that long for the thread: the scan does not wake it
+constexpr int kTurnMs = 1; // longest time that a packet waits for the thread, which the scan does not wake
 constexpr auto kReopenEvery = std::chrono::milliseconds(200);
-constexpr uint32_t kAtOnce = 64; // frames that are read before others are sent
+constexpr uint32_t kAtOnce = 64; // frames read before others are sent
 
 can_frame frameOf(const CanPacket& packet) {
   can_frame frame{};
@@ -38,7 +38,7 @@ CanPacket packetOf(const can_frame& frame) {
   return onBus(packet);
 }
 
-// -1 and errno: the machine has no CAN, or the interface is not there or switched off.
+// Returns -1 with errno if the machine has no CAN, or the interface does not exist or is down.
 int openInterface(const std::string& name) {
   const int descriptor = socket(PF_CAN, SOCK_RAW | SOCK_NONBLOCK | SOCK_CLOEXEC, CAN_RAW);
   if (descriptor < 0) return -1;
@@ -46,11 +46,11 @@ int openInterface(const std::string& name) {
   sockaddr_can address{};
   address.can_family = AF_CAN;
   address.can_ifindex = static_cast<int>(if_nametoindex(name.c_str()));
-  int error = ENODEV; // index 0 would be all interfaces
+  int error = ENODEV; // index 0 would mean all interfaces
   socklen_t size = sizeof error;
   if (address.can_ifindex != 0 && setsockopt(descriptor, SOL_CAN_RAW, CAN_RAW_ERR_FILTER, &all, sizeof all) == 0 &&
       bind(descriptor, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0)
-    getsockopt(descriptor, SOL_SOCKET, SO_ERROR, &error, &size); // ENETDOWN where it is switched off
+    getsockopt(descriptor, SOL_SOCKET, SO_ERROR, &error, &size); // ENETDOWN if it is down
   if (error == 0) return descriptor;
   ::close(descriptor);
   errno = error;
@@ -95,9 +95,9 @@ void SocketCan::close() {
   state_ = BusState::Inactive;
 }
 
-// Off the bus nothing is kept for later: an old order to a machine is not repeated when the bus comes back.
+// Packets are not kept while the bus is off: an old command to a machine must not be sent when the bus returns.
 bool SocketCan::transmit(const CanPacket& packet) {
-  const uint32_t loss = losses_.load(std::memory_order_acquire); // before the state: one of now, if that is active
+  const uint32_t loss = losses_.load(std::memory_order_acquire); // before the state: current if that is active
   return state() == BusState::Active && toBus_.push({onBus(packet), loss});
 }
 
@@ -119,7 +119,7 @@ void SocketCan::run() {
   }
 }
 
-// False: after a while of waiting, in which the end is not overlooked.
+// Opens the descriptor; otherwise waits a while, or until the end is requested, and returns false.
 bool SocketCan::reopen() {
   if (!interface_.empty()) descriptor_ = openInterface(interface_);
   if (descriptor_ >= 0) {
@@ -134,13 +134,14 @@ bool SocketCan::reopen() {
 
 void SocketCan::lose() {
   state_.store(BusState::Down, std::memory_order_release);
-  losses_.fetch_add(1, std::memory_order_acq_rel); // what is in the ring, or is being put there, is old
+  losses_.fetch_add(1, std::memory_order_acq_rel); // packets in the ring, or just being added, are outdated
   ::close(descriptor_);
   descriptor_ = -1;
   hasPending_ = false;
 }
 
-// False: the descriptor is of no more use. Without room in the interface the packet waits for the next turn.
+// Returns false if the descriptor is no longer usable. If the interface has no room, the packet waits for the next
+// turn.
 bool SocketCan::moveOut() {
   while (hasPending_ || toBus_.pop(pending_)) {
     hasPending_ = pending_.loss == losses_.load(std::memory_order_relaxed);
@@ -169,7 +170,7 @@ bool SocketCan::moveIn() {
 
 void SocketCan::takeIn(const can_frame& frame) {
   if ((frame.can_id & CAN_ERR_FLAG) != 0) return takeError(frame.can_id);
-  if ((frame.can_id & CAN_EFF_FLAG) != 0) return; // programs know 11 bits
+  if ((frame.can_id & CAN_EFF_FLAG) != 0) return; // programs use 11-bit identifiers
   state_.store(BusState::Active, std::memory_order_release);
   received_.fetch_add(1, std::memory_order_relaxed);
   fromBus_.push(packetOf(frame));

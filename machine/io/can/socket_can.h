@@ -1,7 +1,7 @@
-// A CAN interface of the machine by SocketCAN. A thread of its own moves frames between the descriptor and two rings;
-// the scan's thread sees the rings alone and makes no system call.
+// A CAN interface of the machine, by SocketCAN. An internal thread moves frames between the descriptor and two rings;
+// the scan thread accesses only the rings and makes no system call.
 //
-// The descriptor may be any that takes and gives one `struct can_frame` at a time, which is how a socket pair tests it.
+// The descriptor may be any one that reads and writes one `struct can_frame` at a time; tests use a socket pair.
 #pragma once
 #include <atomic>
 #include <string>
@@ -18,22 +18,22 @@ class SocketCan final : public CanPort {
 public:
   static constexpr uint32_t kToBus = 128, kFromBus = 256;
 
-  // Since the beginning.
+  // Counts since the start.
   struct Counts {
     uint64_t sent = 0, received = 0;
-    uint64_t lost = 0;     // received while the program took none
-    uint64_t full = 0;     // attempts to send that found the interface's queue full
+    uint64_t lost = 0;     // received while the ring to the program was full
+    uint64_t full = 0;     // failed attempts to send because the interface's queue was full
     uint64_t errors = 0;   // error frames
-    uint64_t timeouts = 0; // of those, ones that report a time-out of the transmission, or a missing acknowledgement
+    uint64_t timeouts = 0; // error frames that report a transmission time-out or a missing acknowledgement
   };
 
   SocketCan() = default;
   ~SocketCan() override { close(); }
 
-  // Serves an interface, "can0". It may be switched off, and come and go: it is opened again as often as needed. "" or
-  // why this machine cannot serve it at all.
+  // Serves an interface, "can0". It may be down, and disappear and return: it is opened again as often as needed.
+  // Returns "", or why this machine cannot serve it at all.
   std::string open(const std::string& interface);
-  // Serves a descriptor, which is closed at the end. When its other side is gone it stays down.
+  // Serves a descriptor, and closes it at the end. If the other side closes it, the port stays down.
   void adopt(int descriptor);
   void close();
 
@@ -54,13 +54,13 @@ private:
   void takeError(uint32_t classes);
 
   std::string interface_; // "": an adopted descriptor
-  int descriptor_ = -1;   // of the thread, from the start to the end of it
+  int descriptor_ = -1;   // used only by the thread while it runs
   bool hasPending_ = false;
   struct Order {
     CanPacket packet;
-    uint32_t loss = 0; // how often the bus had been lost before it
+    uint32_t loss = 0; // value of losses_ when the packet was queued
   };
-  Order pending_; // taken from the ring, and refused by the interface so far
+  Order pending_; // taken from the ring, not yet accepted by the interface
   std::thread thread_;
 
   std::atomic<bool> stop_ = false;

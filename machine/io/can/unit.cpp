@@ -1,4 +1,4 @@
-// One unit: errors, mode, inputs and outputs (see unit.h). What is asked of it is in units.cpp.
+// One unit: errors, mode, inputs and outputs (see unit.h). units.cpp has its SDO requests.
 #include "machine/io/can/unit.h"
 
 #include "machine/io/can/units.h"
@@ -21,7 +21,7 @@ void setBits(Inouts& data, InoutsItem item, uint8_t bits, bool on) {
 
 } // namespace
 
-// Ports are numbered on through the units (man. l.4208-4209).
+// Ports are numbered consecutively over all units (man. l.4208-4209).
 CanUnit::CanUnit(uint32_t group, uint32_t board, uint8_t control) : group_(group), board_(board), control_(control) {
   data_.set(kSize, kBytes);
   data_.set(kControl, control_);
@@ -31,8 +31,8 @@ CanUnit::CanUnit(uint32_t group, uint32_t board, uint8_t control) : group_(group
   data_.set(kFirstOut, kUnitOutputs * board_ - 3);
 }
 
-// It may have any settings. The matrix of an INOUT08 may work from a former time, and its analogue inputs come unless
-// they are switched off; other units have what they are.
+// The unit may have any settings. The matrix of an INOUT08 may still be on, and it sends analogue inputs unless they
+// are switched off; the inputs of other units are fixed.
 void CanUnit::begin() {
   waiting_ = (waiting_ | late_ | underWay_) & requests::kShorts;
   waiting_ |= requests::kRegister | requests::kMapping | requests::kIdentity;
@@ -54,7 +54,7 @@ void CanUnit::tick(CanPort& port, UnitMessages& messages) {
   reportRefusal(messages);
 }
 
-// Also one that is repeated whenever the unit is mapped is said once.
+// A rejection that is repeated whenever the unit is mapped is reported once.
 void CanUnit::reportRefusal(UnitMessages& messages) {
   if (abort_ != 0 && aborted_ != saidAborted_)
     report(messages, {.kind = UnitMessage::Kind::RefusesSdo, .object = aborted_, .code = abort_});
@@ -69,16 +69,16 @@ void CanUnit::start(CanPort& port) {
 
 bool CanUnit::isPreparing() const { return !isStarted_ && isPending(requests::kBeforeStart); }
 
-// Without its mapping a unit still has inputs and outputs where it has them by default (man. l.4805-4858), but the
-// bytes of a handwheel's display would be outputs.
+// Without the mapping, the inputs and outputs of a unit have their default positions (man. l.4805-4858), but the bytes
+// of a handwheel's display would be outputs.
 bool CanUnit::mayStart() const {
   const bool isAsked = !isPending(requests::kBeforeStart);
   if (group_ == kHandwheel) return isAsked && refused_ == 0;
   return isAsked || (isSdoSilent_ && (late_ & requests::kBeforeStart) != 0);
 }
 
-// A unit that has no power is asked for an answer as long as it is not heard; one that is heard, but sends no inputs,
-// may have lost its settings.
+// A unit from which no packets are received, perhaps because it has no power, is sent a request from time to time; one
+// that is received, but sends no inputs, may have lost its settings.
 void CanUnit::watch(UnitMessages& messages) {
   ++silentMs_;
   data_.set(kCount, std::min(silentMs_, 0xFFFFu));
@@ -97,8 +97,8 @@ void CanUnit::report(UnitMessages& messages, UnitMessage message) const {
   messages.push(message);
 }
 
-// Memories are set when an error begins, so that the program may reset them while it lasts (man. l.4101, l.4136). It is
-// shown to people unless CONTROL says otherwise (man. l.3514-3519).
+// The memory bits are set when an error begins, so that the program can reset them while it lasts (man. l.4101,
+// l.4136). The error is reported to the operator unless CONTROL hides it (man. l.3514-3519).
 void CanUnit::showErrors(UnitMessages& messages) {
   const auto before = static_cast<uint8_t>(data_.get(kError));
   uint8_t now = registered_;
@@ -125,8 +125,8 @@ void CanUnit::followMode() {
   data_.set(kModePhase, done ? 0 : 1);
 }
 
-// Potentiometers count in the analogue mode alone (man. l.4351-4354), a matrix of keys in that of the matrix; panels
-// have keys in every mode.
+// Potentiometers are only shown in analogue mode (man. l.4351-4354), a key matrix only in matrix mode; panels have keys
+// in every mode.
 void CanUnit::showInputs() {
   const uint32_t mode = data_.get(kModeNow);
   for (uint32_t i = 0; i < analogue_.size(); ++i) data_.at(kAnalogue + i) = mode == kModeAnalogue ? analogue_[i] : 0;
@@ -134,9 +134,9 @@ void CanUnit::showInputs() {
     data_.at(kKeys + i) = group_ != kInOut08 || mode == kModeMatrix ? keys_[i] : 0;
 }
 
-// The unit itself switches a shorted output off. Beyond that it stays off until the program confirms the error by
-// resetting its bit, unless it does not want to know of errors (man. l.3526-3531); where the short lasts, switching the
-// output on again is an error again.
+// The unit itself switches a shorted output off. The output then stays off until the program confirms the error by
+// resetting its bit, unless CONTROL suppresses reports of shorts (man. l.3526-3531); if the short persists, switching
+// the output on again causes a new error.
 void CanUnit::output(uint32_t port, uint8_t wanted, uint8_t& errors, bool zeroed) {
   const uint8_t shorted = data_.at(kShort + port);
   if (controls(kNoShortReports))
@@ -158,7 +158,7 @@ CanPacket CanUnit::outputPacket(const std::array<uint8_t, 8>& display) {
   return packet;
 }
 
-// What does not come stays as it was.
+// Missing bytes leave their values unchanged.
 void CanUnit::takeInputs(const CanPacket& packet) {
   data_.count(kTpdoCount);
   const uint32_t count = packet.length;
@@ -172,7 +172,7 @@ void CanUnit::takeInputs(const CanPacket& packet) {
   }
 }
 
-// Encoders count on from the low bytes, which have come far less than half a turn of a byte since they came last.
+// Encoder counters are extended from their low bytes, which change by much less than 128 between two packets.
 void CanUnit::takeWheel(const CanPacket& packet) {
   constexpr uint32_t kKeyBytes = 2, kEncoders = 2;
   if (packet.length < kKeyBytes + kEncoders) return;
@@ -196,7 +196,7 @@ bool CanUnit::take(const CanPacket& packet) {
   return isOwn;
 }
 
-// An emergency is error code, error register and what the maker likes (CiA 301).
+// An emergency contains error code, error register and manufacturer-specific data (CiA 301).
 bool CanUnit::takeOwn(const CanPacket& packet) {
   if (packet.isObject(kTpdo1) || packet.isObject(kTpdo2)) return takeInputs(packet), true;
   if (packet.isObject(kSdoAnswer)) return takeAnswer(packet);
@@ -208,7 +208,7 @@ bool CanUnit::takeOwn(const CanPacket& packet) {
   return false;
 }
 
-// Sentences about units.
+// Sentences for the log.
 
 namespace {
 

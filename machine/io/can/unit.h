@@ -1,4 +1,5 @@
-// What the control says about a unit on the CAN bus. The manual has no numbers for that (l.9615-9653 are of drives).
+// A message of the control about a unit on the CAN bus. The manual assigns no numbers to these (l.9615-9653 are for
+// drives).
 #pragma once
 #include <string>
 
@@ -10,10 +11,10 @@ namespace rung::io {
 struct UnitMessage {
   enum class Kind : uint8_t {
     Silent,     // time-out
-    Answers,    // again
-    Error,      // `code` is its error register 1001h
-    SilentSdo,  // it does not answer the request for `object`
-    RefusesSdo, // nor carry it out: `code` is that of the abort (CiA 301)
+    Answers,    // after a time-out
+    Error,      // `code` is the unit's error register 1001h
+    SilentSdo,  // no answer to the request for `object`
+    RefusesSdo, // the unit has rejected that request: `code` is the SDO abort code (CiA 301)
   };
   Kind kind = Kind::Silent;
   uint8_t group = 0, board = 0; // from 1
@@ -22,32 +23,32 @@ struct UnitMessage {
 
   bool operator==(const UnitMessage&) const = default;
 };
-using UnitMessages = BoundedQueue<UnitMessage, 64>; // of more the newest are lost
+using UnitMessages = BoundedQueue<UnitMessage, 64>; // of more than 64, the newest are lost
 
-// As the log has it.
+// The sentence for the log.
 std::string textOf(const UnitMessage& message);
 
-// The control's side of one unit on the CAN bus: its structure INOUTS, its errors and time-outs, and what is asked of
-// it by SDO (man. l.3502-3678, l.4074-4263). All units together are CanUnits (units.h).
+// The control's side of one unit on the CAN bus: its structure INOUTS, its errors and time-outs, and its SDO requests
+// (man. l.3502-3678, l.4074-4263). CanUnits (units.h) has all units.
 //
-// A unit that is new, has come back after a silence or says that it has booted is taken out of the exchange of process
-// data, gets the mapping of its PDOs, in which alone CiA 301 lets it change, and is started.
+// A unit that is new, returns after a silence or reports that it has booted is taken out of the exchange of process
+// data, gets the mapping of its PDOs, which CiA 301 permits only in that state, and is started.
 
-// Groups are 1 INOUT08, 2 KLA50 and EPU, 3 handwheel (man. l.3287-3291).
+// Groups: 1 INOUT08, 2 KLA50 and EPU, 3 handwheel (man. l.3287-3291).
 inline constexpr uint32_t kUnitGroups = 3, kInOut08 = 1, kPanel = 2, kHandwheel = 3;
 inline constexpr uint32_t kMostUnits[kUnitGroups] = {32, 4, 2};
-inline constexpr uint32_t kFirstNode[kUnitGroups] = {0x21, 0x41, 0x45}; // of board 1
+inline constexpr uint32_t kFirstNode[kUnitGroups] = {0x21, 0x41, 0x45}; // node of board 1
 constexpr uint8_t nodeOf(uint32_t group, uint32_t board) {
   return static_cast<uint8_t>(kFirstNode[group - 1] + board - 1);
 }
-// In the control's configuration: the name of a unit, and the attribute that says how many there are.
+// Names in the control's configuration: of a unit, and of the attribute with the number of units.
 struct UnitGroupNames {
   const char *unit, *count;
 };
 inline constexpr UnitGroupNames kUnitGroupNames[kUnitGroups] = {
     {"INOUT08", "InOut08Cnt"}, {"KLA50", "Kla50Cnt"}, {"Knob", "KnobCnt"}};
 inline constexpr uint32_t kUnitOutputs = 3, kUnitInputs = 4; // ports OP0 to OP2, IP0 to IP3
-// The manual does not say how long a unit may be silent (l.3534).
+// The manual does not specify how long a unit may be silent (l.3534).
 inline constexpr uint32_t kUnitTimeoutMs = 100;
 
 class CanUnit {
@@ -62,24 +63,24 @@ public:
   void setControl(uint8_t control) { control_ = control; }
 
   void power() { *this = CanUnit(group_, board_, control_); }
-  // A millisecond: time-out, errors, mode, requests, start.
+  // One millisecond: time-out, errors, mode, requests, start.
   void tick(CanPort& port, UnitMessages& messages);
-  // It takes part in the exchange of process data.
+  // Whether the unit takes part in the exchange of process data.
   bool isStarted() const { return isStarted_; }
-  // The outputs of a port as the program wants them; `errors` are the bits of ERRLI_PxOUT, which are set here for new
-  // shorts, and which keep the output at 0. `zeroed`: all outputs are 0.
+  // Sets the outputs of a port to the program's values. `errors` are the bits of ERRLI_PxOUT: set here for new shorts,
+  // they keep the outputs at 0. `zeroed`: all outputs are 0.
   void output(uint32_t port, uint8_t wanted, uint8_t& errors, bool zeroed);
-  // RPDO1, as it is sent to a unit that is started with each SYNC.
+  // RPDO1, sent to a started unit with each SYNC.
   CanPacket outputPacket(const std::array<uint8_t, 8>& display);
 
-  // A packet of the unit has come. True: the control alone was meant.
+  // Processes a packet of the unit. Returns true if the packet is only for the control.
   bool take(const CanPacket& packet);
 
   const Inouts& data() const { return data_; }
   // CAN_SYSIO_WRITE (man. l.4333).
   void write(InoutsItem item, uint32_t value) { data_.set(item, value); }
   bool hasTimedOut() const { return timedOut_; }
-  // A serious error lasts, and CONTROL does not say that it is this unit's affair alone (man. l.3541, l.3674).
+  // Whether a serious error is present that CONTROL does not limit to this unit (man. l.3541, l.3674).
   bool zeroesAll() const { return (data_.get(inouts::kErrorStatus) & kZeroAll) != 0; }
 
 private:
@@ -108,31 +109,31 @@ private:
   uint32_t group_, board_;
   uint8_t control_ = 0;
   Inouts data_;
-  std::array<uint8_t, 8> analogue_{};          // as they came; programs see them in the analogue mode
-  std::array<uint8_t, 4> keys_{};              // and these in the matrix mode
-  std::array<uint8_t, kUnitOutputs> shorts_{}; // that ERRLI_PxOUT knows
-  std::array<uint8_t, kUnitOutputs> sent_{};   // outputs
+  std::array<uint8_t, 8> analogue_{};          // as received; shown to programs only in analogue mode
+  std::array<uint8_t, 4> keys_{};              // as received; those of an INOUT08 only in matrix mode
+  std::array<uint8_t, kUnitOutputs> shorts_{}; // already reported in ERRLI_PxOUT
+  std::array<uint8_t, kUnitOutputs> sent_{};   // outputs as sent
   uint8_t registered_ = 0;                     // error register 1001h as the unit reported it
-  uint8_t mode_ = 0;                           // to which the unit is brought
-  uint32_t silentMs_ = 0; // since inputs came; a unit that is being prepared need not send any, but they end a time-out
-  uint32_t unheardMs_ = 0; // since anything came
+  uint8_t mode_ = 0;                           // the mode requested from the unit
+  uint32_t silentMs_ = 0;  // since the last inputs; not required from a unit in preparation, but they end a time-out
+  uint32_t unheardMs_ = 0; // since any packet was received
   bool timedOut_ = false;
-  bool isPrepared_ = false, isStarted_ = false; // it has left, and joined, the exchange of process data
-  uint32_t waiting_ = 0;                        // requests by SDO, a bit each (units.cpp)
-  uint32_t late_ = 0;                           // those that were not answered, for the time when no other waits
-  uint32_t underWay_ = 0;                       // the bit of the one that was sent
-  uint32_t refused_ = 0;                        // what the unit would not write
+  bool isPrepared_ = false, isStarted_ = false; // it has left, and has joined, the exchange of process data
+  uint32_t waiting_ = 0;                        // waiting SDO requests, one bit each (units.cpp)
+  uint32_t late_ = 0;                           // unanswered requests, repeated when no other waits
+  uint32_t underWay_ = 0;                       // bit of the request in progress
+  uint32_t refused_ = 0;                        // requests that the unit has rejected
   uint32_t askedMs_ = 0;
   bool isSdoSilent_ = false, saidSdoSilent_ = false;
-  uint32_t abort_ = 0; // of the latest refusal, until it is reported
+  uint32_t abort_ = 0; // abort code of the latest rejection, until it is reported
   sdo::Object aborted_, saidAborted_;
   enum class Segment : uint8_t { None, Due, Asked } segment_ = Segment::None; // of a text that is longer than 4 bytes
 };
 
-// Objects of units (man. l.4390-4463, l.4567-4663); those that every node has are in drives.h.
+// Objects of units (man. l.4390-4463, l.4567-4663); drives.h has those of every node.
 
-inline constexpr sdo::Object kTpdo2Id{0x1801, 1}, kTpdo2Type{0x1801, 2}; // COB-ID and type of transmission (CiA 301)
-inline constexpr uint32_t kNotValid = 0x8000'0000;                       // of a COB-ID: the PDO is not sent
+inline constexpr sdo::Object kTpdo2Id{0x1801, 1}, kTpdo2Type{0x1801, 2}; // COB-ID and transmission type (CiA 301)
+inline constexpr uint32_t kNotValid = 0x8000'0000;                       // bit of a COB-ID: the PDO is not sent
 inline constexpr uint16_t kRpdoMapping = 0x1600, kTpdoMapping = 0x1A00;  // subindices 1 to 8
 
 inline constexpr uint16_t kShortedOutput = 0x2101, kMatrixInput = 0x2108, kEncoderCounter = 0x210D, kDisplay = 0x210F,
@@ -143,16 +144,16 @@ inline constexpr uint8_t kDisplayInitialise = 1, kDisplayEnable = 2, kDisplayRow
                          kDisplayMask = 8, kDisplayInversion = 9, kDisplaySize = 10, kDisplayCount = 11,
                          kDisplayCharacter = 12;
 
-// What the bytes of the process data of units are. The units have eight fields of eight bits in RPDO1 and in TPDO1,
-// whose number is fixed, and fields without use have to be mapped, too (man. l.4705-4714, l.4780-4790); the control
-// maps them by the objects 1600h and 1A00h. TPDO2 is fixed: what the unit's analogue inputs are.
+// The bytes in the process data of units. RPDO1 and TPDO1 of a unit always have eight fields of eight bits, and unused
+// fields must be mapped, too (man. l.4705-4714, l.4780-4790); the control maps them with the objects 1600h and 1A00h.
+// TPDO2 is fixed: the unit's analogue inputs.
 //
-// The manual names the objects and the structures of programs (l.4074-4185, l.7492-7503), but not
-// which byte is what: the control decides that.
+// The manual names the objects and the structures of programs (l.4074-4185, l.7492-7503), but not the order of the
+// bytes: the control decides it.
 
 inline constexpr uint32_t kPdoFields = 8;
 
-inline constexpr uint16_t kUnusedField = 0x0005; // the unsigned byte of CiA 301 that is mapped where nothing is
+inline constexpr uint16_t kUnusedField = 0x0005; // dummy object of CiA 301 (unsigned byte), mapped to unused fields
 
 // The value of a mapping object: index, subindex, bits.
 constexpr uint32_t mappingOf(sdo::Object field) { return uint32_t{field.index} << 16 | field.subindex << 8 | 8u; }
@@ -182,7 +183,7 @@ inline constexpr PdoFields kWheelOutputFields = {{{kDisplay, kDisplayRow},
                                                   {kDisplay, kDisplayCharacter + 3},
                                                   {kDisplay, kDisplaySize},
                                                   {kDisplay, kDisplayInversion}}};
-// IN0, IN1; the low bytes of IRC0 and IRC1, for a field has no more bits.
+// IN0, IN1; the low bytes of IRC0 and IRC1, because a field has only eight bits.
 inline constexpr PdoFields kWheelInputFields = {{{kWheelKeys, 1},
                                                  {kWheelKeys, 2},
                                                  {kEncoderCounter, 1},

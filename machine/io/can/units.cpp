@@ -44,7 +44,7 @@ void CanUnits::reset() {
   started_ = false;
 }
 
-// Other nodes of the channel are the program's: they are started, and then left alone.
+// Other nodes of the channel belong to the program: they are only started.
 void CanUnits::prepare(CanPort& port) {
   if (units_.empty()) return;
   if (!started_) started_ = port.transmit(nodeCommand(kStartNode, kAllNodes));
@@ -72,7 +72,7 @@ void CanUnits::output(const UnitOrders& orders, UnitStates& states) {
   }
 }
 
-// The packets of outputs come before SYNC, on which the units take them over and answer with their inputs.
+// Packets with outputs precede SYNC, on which the units apply them and answer with their inputs.
 void CanUnits::synchronize(const UnitOrders& orders, CanPort& port) {
   sinceSync_ = 0;
   for (uint32_t i = 0; i < kHandwheels; ++i)
@@ -124,33 +124,33 @@ bool CanUnits::write(uint32_t group, uint32_t board, InoutsItem item, uint32_t v
   return true;
 }
 
-// One unit: what is asked of it by SDO, one request at a time.
+// The SDO requests to one unit, one at a time.
 
 namespace {
 
 using namespace inouts;
 
-constexpr uint32_t kPatienceMs = 50; // then the next request is sent; this one comes again
+constexpr uint32_t kPatienceMs = 50; // time limit; after it the next request is sent, and this one is repeated later
 constexpr uint32_t kScanningOutputs = 8;
-constexpr uint8_t kCharacters = 4; // of TOC_DISPLS
+constexpr uint8_t kCharacters = 4; // characters in TOC_DISPLS
 
 enum class Kind : uint8_t { Item, Register, Value, Analogue, Matrix };
 
 struct Request {
   sdo::Object object;
   Kind kind = Kind::Item;
-  InoutsItem item;   // where the answer goes
-  uint8_t value = 0; // what is written
+  InoutsItem item;   // destination of the answer
+  uint8_t value = 0; // value to write
 };
 
-// Without those of the mapping, which lie between the wheel's mode and TPDO2.
+// All requests except those of the mapping, whose bits lie between kWheelMode and kAnalogue.
 constexpr Request kRequests[] = {
     {{kShortedOutput, 1}, Kind::Item, {kShort}},
     {{kShortedOutput, 2}, Kind::Item, {kShort + 1}},
     {{kShortedOutput, 3}, Kind::Item, {kShort + 2}},
     {sdo::kErrorRegister, Kind::Register, {}},
     {kWheelMode, Kind::Value, {}, 1},
-    {kTpdo2Id, Kind::Analogue, {}},     // with each SYNC, which is the type of a unit's transmissions, or never
+    {kTpdo2Id, Kind::Analogue, {}},     // sent with each SYNC, which is the units' transmission type, or never
     {kMatrixOutputs, Kind::Matrix, {}}, // outputs that scan the matrix (man. l.4578-4587)
     {{kDisplay, kDisplayInitialise}, Kind::Value, {}, 1},
     {{kDisplay, kDisplayEnable}, Kind::Value, {}, 1},
@@ -169,7 +169,7 @@ const Request& rowOf(uint32_t bit) {
   return kRequests[number < requests::kMappingAt ? number : number - kMappings];
 }
 
-// Of 0 to 15.
+// Number of a mapping request, 0 to 15.
 uint32_t mappingNumber(uint32_t bit) { return static_cast<uint32_t>(std::countr_zero(bit)) - requests::kMappingAt; }
 
 sdo::Object objectOf(uint32_t bit) {
@@ -200,7 +200,7 @@ uint32_t lowest(uint32_t bits) { return bits & (~bits + 1); }
 
 bool CanUnit::isPending(uint32_t requests) const { return ((waiting_ | late_ | underWay_) & requests) != 0; }
 
-// A unit that is not heard is asked now and then, whatever is next.
+// A unit from which no packets are received is sent a request only from time to time.
 void CanUnit::ask(CanPort& port, UnitMessages& messages) {
   data_.set(kShortRequest, isPending(requests::kShorts) ? 1 : 0);
   if (segment_ == Segment::Due && port.transmit(sdo::packet(kSdoRequest + node(), sdo::kReadSegment, {}, 0)))
@@ -213,7 +213,7 @@ void CanUnit::ask(CanPort& port, UnitMessages& messages) {
   const CanPacket request = isMapping ? sdo::write(node(), objectOf(next), 4, mappingOf(fieldOf(next, group_)))
                                       : packetOf(rowOf(next), node(), mode_);
   if (!port.transmit(request)) return;
-  waiting_ &= ~next; // what makes it necessary again may happen from now on
+  waiting_ &= ~next; // cleared now, because a new reason for the request may occur from now on
   late_ &= ~next;
   underWay_ = next;
   askedMs_ = 0;
@@ -230,7 +230,7 @@ void CanUnit::giveUp(UnitMessages& messages) {
   segment_ = Segment::None;
 }
 
-// SEND_REQ: the packet SEND goes to this unit, its answer is RESP (man. l.4105-4106).
+// SEND_REQ: sends the packet SEND to this unit; its answer is RESP (man. l.4105-4106).
 void CanUnit::sendRequested(CanPort& port) {
   if (data_.get(kSendRequest) == 0) return;
   CanPacket packet{.id = static_cast<uint16_t>(kSdoRequest + node()), .length = kCanDataBytes};
@@ -238,8 +238,8 @@ void CanUnit::sendRequested(CanPort& port) {
   if (port.transmit(packet)) data_.set(kSendRequest, 0);
 }
 
-// An answer that the control has not asked for is one for the program, or for SEND_REQ. All answers have eight bytes
-// (CiA 301).
+// An answer that the control has not requested is for the program, or for SEND_REQ. All answers have eight bytes (CiA
+// 301).
 bool CanUnit::takeAnswer(const CanPacket& packet) {
   const bool isSegment = segment_ == Segment::Asked && (sdo::command(packet) & 0xE0) == 0;
   const bool isWhole = packet.length == kCanDataBytes;
@@ -252,7 +252,7 @@ bool CanUnit::takeAnswer(const CanPacket& packet) {
   return false;
 }
 
-// What a unit does not have is not asked again. Of a text in segments the first one shows enough.
+// Rejected requests are not repeated. Of a segmented text, the first segment is enough.
 void CanUnit::finish(const CanPacket& answer) {
   isSdoSilent_ = saidSdoSilent_ = false;
   if (segment_ == Segment::None && sdo::command(answer) == sdo::kSegmented) {
@@ -273,7 +273,7 @@ void CanUnit::finish(const CanPacket& answer) {
   if (request.kind == Kind::Item) data_.set(request.item, value);
 }
 
-// A unit may lack what is read.
+// Objects that are only read may be missing in a unit.
 void CanUnit::refuse(uint32_t bit, uint32_t abort) {
   if ((bit & requests::kBeforeStart) == 0) return;
   refused_ |= bit;

@@ -1,4 +1,4 @@
-// A serial port as a program sees it.
+// See port.h.
 #include "machine/io/com/port.h"
 
 #include <span>
@@ -17,14 +17,14 @@ void Port::powerOn() noexcept {
   lostSeen_ = fromLine_.lost();
 }
 
-// The ring's size is an upper bound for this side.
+// On this side, the size of the ring is an upper bound.
 bool Port::send(std::span<const uint8_t> bytes) noexcept {
   if (!settings_.isActive) return false;
   if (bytes.size() > kQueueBytes - toLine_.size()) {
     sendOverflow_ = true;
     return false;
   }
-  filling_.store(true, std::memory_order_relaxed); // seen with the first byte at the latest
+  filling_.store(true, std::memory_order_relaxed); // visible no later than the first byte
   for (const uint8_t byte : bytes) toLine_.push(byte & settings_.mask());
   filling_.store(false, std::memory_order_release);
   return true;
@@ -36,7 +36,7 @@ std::optional<uint8_t> Port::receive() noexcept {
   return byte;
 }
 
-// Those that are there now: the line may bring more meanwhile.
+// Removes the bytes present now; the line may add more meanwhile.
 bool Port::clear() noexcept {
   uint8_t byte = 0;
   for (uint32_t left = fromLine_.size(); left > 0; --left) fromLine_.pop(byte);
@@ -62,7 +62,7 @@ void Port::dropToSend() noexcept {
   for (uint32_t left = toSend(); left > 0; --left) toLine_.pop(byte);
 }
 
-// The size first: a byte of a block that it counts makes the flag visible.
+// Reads the size first: a byte of a block that it includes makes the flag visible.
 uint32_t Port::toSend() const noexcept {
   const uint32_t bytes = toLine_.size();
   return filling_.load(std::memory_order_acquire) ? 0 : bytes;
@@ -108,7 +108,7 @@ std::string setParity(Settings& settings, std::string_view value) {
   return expected("ComParity", "None, Odd, Even, Mark or Space", value);
 }
 
-// Both ways to serve a port are the same here.
+// Both methods are the same here.
 std::string checkMethod(std::string_view value) {
   const bool known = text::equalsIgnoringCase(value, "Buffered") || text::equalsIgnoringCase(value, "RT");
   return known ? "" : expected("ServiceMethod", "Buffered or RT", value);
@@ -135,7 +135,7 @@ bool isPortKey(std::string_view key) {
   return name.starts_with("COM[") || name.starts_with("COM.");
 }
 
-// An index of 0 is the same as none: COM.Active (identifier.h).
+// A missing index counts as 0: COM.Active (identifier.h).
 std::string readPortKey(std::string_view key, PortKey& port) {
   const std::string name = nc::technol::canonical(key);
   std::string_view rest = name;
@@ -149,16 +149,16 @@ std::string readPortKey(std::string_view key, PortKey& port) {
 
 } // namespace com
 
-// Requests to serial ports. RLO, the first result, is 1 for an error.
+// Answers to requests to serial ports. RLO, the first result, is 1 for an error.
 
 namespace {
 
-enum Command : int64_t { kClear = nc::technol::kFirstLineCommand, kReceived, kState }; // of COM_CONTROL
+enum Command : int64_t { kClear = nc::technol::kFirstLineCommand, kReceived, kState }; // commands of COM_CONTROL
 
 void send(com::Port& port, DeviceCall& call) { call.set(0, port.send(static_cast<uint8_t>(call.arg(1))) ? 0 : 1); }
 
 void sendText(com::Port& port, DeviceCall& call) {
-  std::array<uint8_t, com::Port::kQueueBytes + 1> room{}; // one more than the queue takes
+  std::array<uint8_t, com::Port::kQueueBytes + 1> room{}; // one byte more than the queue holds
   call.set(0, port.send(call.bytes(1, room)) ? 0 : 1);
 }
 
@@ -193,7 +193,7 @@ void answerOf(com::Port& port, DeviceCall& call) {
 
 } // namespace
 
-// A null port is answered as one that is not configured.
+// A null port is answered like one that is not configured.
 void answerCom(com::Port* port, DeviceCall& call) {
   if (port != nullptr) return answerOf(*port, call);
   com::Port none;

@@ -1,4 +1,4 @@
-// A serial port of this machine.
+// See tty_line.h.
 #include "machine/io/com/tty_line.h"
 
 #include <fcntl.h>
@@ -51,7 +51,7 @@ std::string devicePath(uint32_t physical) { return "/dev/ttyS" + std::to_string(
 
 bool isStandardSpeed(uint32_t speed) { return findSpeed(speed) != nullptr; }
 
-// A byte whose parity or frame is wrong is dropped.
+// Bytes with parity or framing errors are dropped.
 termios termiosOf(const Settings& settings, termios found) {
   cfmakeraw(&found);
   found.c_cflag &= ~static_cast<tcflag_t>(CSIZE | CSTOPB | PARENB | PARODD | CMSPAR | CRTSCTS);
@@ -59,7 +59,7 @@ termios termiosOf(const Settings& settings, termios found) {
                    parityFlags(settings.parity);
   found.c_iflag &= ~static_cast<tcflag_t>(INPCK | IXOFF | IXANY);
   found.c_iflag |= IGNBRK | IGNPAR | (settings.parity == Parity::None ? 0 : INPCK);
-  found.c_cc[VMIN] = 1; // a read that gives nothing is the end
+  found.c_cc[VMIN] = 1; // a read of 0 bytes then means a disconnection
   found.c_cc[VTIME] = 0;
   if (const Speed* speed = findSpeed(settings.speed)) cfsetspeed(&found, speed->code);
   return found;
@@ -116,7 +116,7 @@ void TtyLine::step(int64_t nowMs) noexcept {
   if (descriptor_ >= 0) write();
 }
 
-// At most a queue at a time, so that a device that never ends does not keep the others waiting.
+// Reads at most one queue's length, so that a device that sends continuously does not delay the others.
 void TtyLine::read() noexcept {
   std::array<uint8_t, kBlock> bytes{};
   for (size_t all = 0; all < Port::kQueueBytes;) {
@@ -146,7 +146,7 @@ void TtyLine::write() noexcept {
   }
 }
 
-// The thread of the serial ports.
+// The thread that serves the serial ports.
 
 std::string TtyThread::add(Port& port, std::string path) {
   if (!isStandardSpeed(port.settings().speed))

@@ -1,8 +1,8 @@
-// A serial port of this machine as the line of a Port, over termios. It belongs to a thread of the host that is not the
-// scan's: opening, reading and writing are calls of the system.
+// A serial port of this machine as the line of a Port, over termios. It runs on a thread of the host other than the
+// scan thread, because opening, reading and writing are system calls.
 //
-// A device that is not there, or has gone (USB), is the port's error; it is opened again once a second. Meanwhile bytes
-// that are to be sent stay in the queue.
+// A missing or disconnected device (USB) is an error of the port; the device is opened again once a second. Meanwhile
+// bytes to be sent stay in the queue.
 #pragma once
 #include <array>
 #include <atomic>
@@ -19,33 +19,33 @@
 
 namespace rung::io::com {
 
-// `found`, raw and set so. Speeds are those that termios knows: 50 to 4,000,000.
+// Returns `found`, changed to raw mode and these settings. Speeds are those that termios has: 50 to 4,000,000.
 termios termiosOf(const Settings& settings, termios found);
-// The device of PhysicalComNo, which counts as Windows does: 1 is /dev/ttyS0 (l.21024).
+// The device of a PhysicalComNo, which counts like Windows: 1 is /dev/ttyS0 (l.21024).
 std::string devicePath(uint32_t physical);
-// Whether termios has a number for it.
+// Whether termios has a constant for the speed.
 bool isStandardSpeed(uint32_t speed);
 
 class TtyLine {
 public:
   static constexpr int64_t kReopenMs = 1000;
 
-  // A device by its path, /dev/ttyS0. It is opened in `step`.
+  // A device by its path, /dev/ttyS0; `step` opens it.
   TtyLine(Port& port, std::string path) : port_(port), path_(std::move(path)) {}
-  // One that is open; it is closed with the line, or where it has gone, and then the error stays.
+  // An open descriptor; it is closed with the line, or when its device disconnects; the error is then permanent.
   TtyLine(Port& port, int descriptor);
   ~TtyLine() { close(); }
   TtyLine(const TtyLine&) = delete;
   TtyLine& operator=(const TtyLine&) = delete;
 
-  // Moves what can be moved, and does not wait. `nowMs` of any steady clock.
+  // Moves bytes in both directions as far as possible, without waiting. `nowMs`: time of any steady clock.
   void step(int64_t nowMs) noexcept;
 
-  // For poll: -1 where it is closed.
+  // For poll: -1 if closed.
   int descriptor() const { return descriptor_; }
-  // Bytes wait until the system has room for them.
+  // Whether bytes wait until the system has room for them.
   bool hasUnsent() const { return unsentAt_ < unsentEnd_; }
-  // What has last gone wrong, for people; "" while nothing has. Any thread but the scan's.
+  // The current problem, for users; "": none. Any thread except the scan thread.
   std::string problem() const;
 
 private:
@@ -60,9 +60,9 @@ private:
   bool fillUnsent() noexcept;
 
   Port& port_;
-  std::string path_; // "": a descriptor was given
+  std::string path_; // "": constructed with a descriptor
   int descriptor_ = -1;
-  int64_t openAtMs_ = INT64_MIN; // not before
+  int64_t openAtMs_ = INT64_MIN; // earliest time of the next attempt to open
   int64_t nowMs_ = 0;
   std::array<uint8_t, kBlock> unsent_{}; // taken from the port
   size_t unsentAt_ = 0, unsentEnd_ = 0;
@@ -74,7 +74,7 @@ private:
 
 class TtyThread {
 public:
-  // The longest that a byte in a queue waits for the thread: the scan does not wake it.
+  // Longest time that a byte in a queue waits for the thread, which the scan does not wake.
   static constexpr int kPauseMs = 2;
 
   TtyThread() = default;
@@ -82,21 +82,21 @@ public:
   TtyThread(const TtyThread&) = delete;
   TtyThread& operator=(const TtyThread&) = delete;
 
-  // Before `start`; the port outlives the thread, and its settings do not change any more. "" or what is wrong with
-  // them.
+  // To be called before `start`; the port must outlive the thread, and its settings must not change any more. Returns
+  // "", or what is wrong with the settings.
   std::string add(Port& port, std::string path);
   void add(Port& port, int descriptor) { lines_.emplace_back(port, descriptor); }
   void start();
-  // What the queues hold goes to the system, where it has room.
+  // Passes the queued bytes to the system, as far as it has room, and ends the thread.
   void end();
 
-  // One a line that has one, for people. Any thread but the scan's.
+  // The current problem of each line that has one, for users. Any thread except the scan thread.
   std::vector<std::string> problems() const;
 
 private:
   void run() noexcept;
 
-  std::list<TtyLine> lines_; // they do not move
+  std::list<TtyLine> lines_; // a list, because lines must not move
   std::atomic<bool> ending_{false};
   std::thread thread_;
 };

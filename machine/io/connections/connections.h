@@ -1,4 +1,4 @@
-// What serves one connection, on a thread of its own.
+// Serves one connection on a thread of its own.
 #pragma once
 #include <atomic>
 #include <cstdint>
@@ -22,10 +22,11 @@ namespace rung::io {
 class Service {
 public:
   virtual ~Service() = default;
-  // On its thread, until `ending`; then the newest outputs go to the other side a last time, where it is there.
+  // Runs on that thread until `ending` is true; then sends the newest outputs a last time, if the other side is
+  // connected.
   virtual void run(const std::atomic<bool>& ending) noexcept = 0;
 
-  // What has last gone wrong, for people; "" while nothing has. Any thread but the scan's.
+  // The current problem, for users; "": none. Any thread except the scan thread.
   std::string problem() const {
     const std::lock_guard lock(mutex_);
     return problem_;
@@ -42,11 +43,11 @@ private:
   std::string problem_;
 };
 
-// The values of the pins of one connection between the thread that scans and the thread that serves the connection. A
-// scan sees the values of one moment of the other side. Neither thread waits for the other, so the scan thread decides
-// by itself when a connection counts as lost.
+// The values of one connection's pins, exchanged between the scan thread and the thread of the connection. All inputs
+// of a scan are from the same moment. Neither thread waits for the other, so the scan thread itself decides when a
+// connection is lost.
 
-// Of a connection, as host::ConnectedPin; a number holds the value of a pin of every type.
+// A pin of a connection; values of all types are exchanged as numbers of type double.
 struct ExchangedPin {
   host::ConnectedPin place;
   host::PinType type = host::PinType::Bit;
@@ -61,19 +62,19 @@ public:
   const std::vector<ExchangedPin>& outputs() const noexcept { return outputs_; }
   int64_t timeoutNs() const noexcept { return timeoutNs_; }
 
-  // ---- the scan thread; `pins` are the cells of File::pins
+  // ---- scan thread; `pins` are the cells of File::pins
 
-  // Before a step: the newest inputs, or their safe values where the other side has been silent for its time. `nowNs`
-  // is of the monotonic clock.
+  // To be called before a step: sets the newest inputs, or their safe values if the other side has been silent for the
+  // timeout. `nowNs`: time of the monotonic clock.
   void readInputs(const host::PinCell* pins, int64_t nowNs) noexcept;
-  // After a step, and before the first one.
+  // To be called after each step, and before the first one.
   void writeOutputs(const host::PinCell* pins) noexcept;
 
-  // ---- the thread of the connection
+  // ---- thread of the connection
 
-  // The other side was there at `nowNs`, and these are the inputs now.
+  // The other side was connected at `nowNs` and has sent these inputs.
   void publish(std::span<const double> inputs, int64_t nowNs) noexcept;
-  // The newest outputs, until the next call.
+  // The newest outputs; valid until the next call.
   const std::vector<double>& newestOutputs() noexcept;
 
   // ---- any thread
@@ -104,32 +105,32 @@ private:
 struct Figures {
   std::string title; // "modbus-server 127.0.0.1:502"
   bool alive = false;
-  uint64_t exchanges = 0; // in which inputs came
-  uint64_t losses = 0;    // how often it has been lost
-  std::string problem;    // the last one; "" while there is none
+  uint64_t exchanges = 0; // number of received sets of inputs
+  uint64_t losses = 0;    // number of times the connection was lost
+  std::string problem;    // the current problem; "": none
 };
 
 class Connections {
 public:
-  // Servers listen, and memory is shared, from now on. Throws std::runtime_error where that cannot be.
+  // Servers listen, and memory is shared, from now on. Throws std::runtime_error if that is not possible.
   explicit Connections(const host::File& map);
   ~Connections() { end(); }
   Connections(const Connections&) = delete;
   Connections& operator=(const Connections&) = delete;
 
-  // What an operator should know before it begins.
+  // Reports for the operator before the start.
   const std::vector<std::string>& warnings() const { return warnings_; }
-  // After the first `writeOutputs`.
+  // To be called after the first `writeOutputs`.
   void start();
-  // After the last one, which goes to the other sides.
+  // To be called after the last `writeOutputs`, whose outputs are still sent.
   void end();
 
-  // The thread that scans, before and after each step; `pins` are the cells of File::pins, `nowNs` of the monotonic
+  // Scan thread, before and after each step; `pins` are the cells of File::pins, `nowNs` is time of the monotonic
   // clock.
   void readInputs(const host::PinCell* pins, int64_t nowNs) noexcept;
   void writeOutputs(const host::PinCell* pins) noexcept;
 
-  // For the thread that serves the host: what has been lost, or has come back, since the last call.
+  // Service thread: reports connections lost or restored since the last call.
   void report(const std::function<void(const std::string&)>& print);
   std::vector<Figures> figures() const;
 
@@ -141,8 +142,8 @@ private:
     Exchange exchange;
     std::unique_ptr<Service> service;
     std::thread thread;
-    bool reported = false;  // alive, the last time
-    bool explained = false; // a problem has been reported since
+    bool reported = false;  // value of `alive` when last reported
+    bool explained = false; // its problem has been reported since then
   };
 
   std::vector<std::string> warnings_;

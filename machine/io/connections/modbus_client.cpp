@@ -1,4 +1,4 @@
-// See modbus_client.h. All that may wait here waits on the thread of the connection.
+// See modbus_client.h. All waiting takes place on the thread of the connection.
 #include "machine/io/connections/modbus_client.h"
 
 #include <poll.h>
@@ -20,16 +20,16 @@ namespace {
 
 using host::Area;
 
-constexpr int64_t kLongestWaitNs = 1'000'000'000; // for an answer
-constexpr int64_t kRetryNs = 100'000'000;         // until the next attempt to connect, at least
-constexpr int64_t kLookNs = 20'000'000;           // between two looks whether to end
+constexpr int64_t kLongestWaitNs = 1'000'000'000; // longest wait for an answer
+constexpr int64_t kRetryNs = 100'000'000;         // shortest time to the next attempt to connect
+constexpr int64_t kLookNs = 20'000'000;           // between two checks for the end
 constexpr int64_t kNsInMs = 1'000'000;
-constexpr size_t kPlaceBytes = 5; // of a request: function, place and number
+constexpr size_t kPlaceBytes = 5; // bytes of a request's function code, address and count
 
 bool isRegister(Area area) { return area == Area::HoldingRegister || area == Area::InputRegister; }
 uint32_t lengthOf(const ExchangedPin& pin) { return isRegister(pin.place.area) ? registersOf(pin.place.format) : 1; }
 
-// Places of one request.
+// Largest number of addresses in one request.
 uint32_t mostOf(Area area, bool writes) {
   if (isRegister(area)) return writes ? MODBUS_MAX_WRITE_REGISTERS : MODBUS_MAX_READ_REGISTERS;
   return writes ? MODBUS_MAX_WRITE_BITS : MODBUS_MAX_READ_BITS;
@@ -102,13 +102,13 @@ bool ModbusClient::connect() {
   return connected_ || fail("cannot connect");
 }
 
-// What an answer that comes too late belongs to would be unknown afterwards.
+// Closes the connection after an error, because a late answer could not be assigned to its request.
 void ModbusClient::disconnect() {
   if (connected_) modbus_close(context_.get());
   connected_ = false;
 }
 
-// Each answer may come in time, and all of them too late.
+// An exchange may take too long although each answer is in time.
 bool ModbusClient::turn() {
   const int64_t begin = runtime::monotonicNs();
   if (!write() || !read()) return false;
@@ -146,12 +146,12 @@ bool ModbusClient::writeBlock(const Block& block, const std::vector<double>& val
   begin(words ? MODBUS_FC_WRITE_MULTIPLE_REGISTERS : MODBUS_FC_WRITE_MULTIPLE_COILS, block);
   request_.push_back(static_cast<uint8_t>(data.size()));
   request_.insert(request_.end(), data.begin(), data.end());
-  // The answer repeats function, place and number.
+  // The answer repeats function code, address and count.
   const bool good = ask() && std::ranges::equal(answer_, std::span(request_).subspan(1, kPlaceBytes));
   return good || fail(std::string("cannot write ") + nameOf(block.area) + std::to_string(block.first));
 }
 
-// Unit, function, place and number, as all requests begin.
+// Unit, function code, address and count, the beginning of all requests.
 void ModbusClient::begin(uint8_t function, const Block& block) {
   request_ = {unit_,
               function,
@@ -161,8 +161,8 @@ void ModbusClient::begin(uint8_t function, const Block& block) {
               static_cast<uint8_t>(block.count)};
 }
 
-// The library's own requests do not look at the unit that answers. False, with errno: no answer, or none to this
-// request; then it is not known what the next one would belong to.
+// Sends a raw request, because the library's own requests do not check the unit of the answer. Returns false, with
+// errno, if there is no answer, or not one to this request; the next answer could then not be assigned.
 bool ModbusClient::ask() {
   modbus_t* device = context_.get();
   answer_.clear();
@@ -175,7 +175,7 @@ bool ModbusClient::ask() {
   constexpr size_t kUnitAt = 6, kFunctionAt = 7;
   const std::span<const uint8_t> given(message.data(), static_cast<size_t>(length));
   if (given.size() < kFunctionAt + 2) return false;
-  if (given[0] != 0 || given[1] != 0) return false; // the transaction, which such a request has
+  if (given[0] != 0 || given[1] != 0) return false; // transaction identifier of raw requests
   errno = EMBBADSLAVE;
   if (given[kUnitAt] != unit_) return false;
   errno = EMBBADDATA;
@@ -194,7 +194,7 @@ bool ModbusClient::readBlock(const Block& block) {
                                     MODBUS_FC_READ_HOLDING_REGISTERS, MODBUS_FC_READ_INPUT_REGISTERS}; // by Area
   const bool words = isRegister(block.area);
   begin(kFunctions[static_cast<size_t>(block.area)], block);
-  constexpr size_t kDataAt = 2; // after the function and the number of bytes
+  constexpr size_t kDataAt = 2; // after function code and number of bytes
   const size_t bytes = words ? 2 * size_t{block.count} : (block.count + 7) / 8;
   if (!ask() || answer_.size() != kDataAt + bytes || answer_[1] != bytes)
     return fail(std::string("cannot read ") + nameOf(block.area) + std::to_string(block.first));
@@ -232,7 +232,7 @@ bool ModbusClient::fail(const std::string& what) {
   return false;
 }
 
-// Once after a good exchange, as who waits cannot connect anew.
+// Waits longer for a late answer, only once after a successful exchange, because the client cannot reconnect meanwhile.
 bool ModbusClient::answersLater() {
   constexpr int64_t kTimes = 3;
   pollfd waiting{modbus_get_socket(context_.get()), POLLIN, 0};
@@ -240,7 +240,7 @@ bool ModbusClient::answersLater() {
   for (int64_t left = kTimes * answerNs_; left > 0 && !answers && !*ending_; left -= kLookNs)
     answers = poll(&waiting, 1, static_cast<int>(kLookNs / kNsInMs)) > 0;
   char byte = 0;
-  return answers && recv(waiting.fd, &byte, 1, MSG_PEEK | MSG_DONTWAIT) > 0; // else it has ended the connection
+  return answers && recv(waiting.fd, &byte, 1, MSG_PEEK | MSG_DONTWAIT) > 0; // false: connection closed
 }
 
 } // namespace rung::io

@@ -1,4 +1,4 @@
-// A client of Modbus TCP: at each period it writes the outputs of a connection to a device and reads the inputs there.
+// A Modbus TCP client: in each period it writes the outputs of a connection to a device and reads the inputs from it.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -13,17 +13,17 @@ namespace rung::io {
 
 class ModbusClient final : public Service {
 public:
-  // Throws std::bad_alloc. The device need not be there yet.
+  // Throws std::bad_alloc. The device need not be connected yet.
   ModbusClient(const host::Connection& connection, Exchange& exchange);
   void run(const std::atomic<bool>& ending) noexcept override;
 
 private:
-  // Places without a gap, for one request.
+  // Consecutive addresses that fit into one request.
   struct Block {
     host::Area area = host::Area::Coil;
     uint32_t first = 0;
     uint32_t count = 0;
-    std::vector<size_t> pins; // in Exchange::inputs() or outputs()
+    std::vector<size_t> pins; // indices into Exchange::inputs() or outputs()
   };
   struct Free {
     void operator()(modbus_t* context) const noexcept { modbus_free(context); }
@@ -48,14 +48,14 @@ private:
   std::unique_ptr<modbus_t, Free> context_;
   std::vector<Block> reads_, writes_;
   uint8_t unit_ = 0;
-  std::vector<uint8_t> request_;    // without what TCP puts before it
-  std::vector<uint8_t> answer_;     // from the function on
-  std::vector<uint8_t> bits_;       // of a block
-  std::vector<uint16_t> registers_; // of a block
+  std::vector<uint8_t> request_;    // without the MBAP header
+  std::vector<uint8_t> answer_;     // from the function code on
+  std::vector<uint8_t> bits_;       // bits of a block
+  std::vector<uint16_t> registers_; // registers of a block
   std::vector<double> inputs_;
   bool connected_ = false;
-  int64_t answerNs_;    // within which an answer is waited for
-  bool waited_ = false; // for a late answer, since the last good exchange
+  int64_t answerNs_;    // how long an answer is waited for
+  bool waited_ = false; // for a late answer, since the last successful exchange
   const std::atomic<bool>* ending_ = nullptr;
 };
 

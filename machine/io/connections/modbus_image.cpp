@@ -52,7 +52,7 @@ Exception ModbusImage::check(const Request& request) const {
   return writesNumbers(request) ? Exception::None : Exception::Value;
 }
 
-// Whole values are written: that is known by now.
+// Whether written values are finite; the request has been checked to contain complete values.
 bool ModbusImage::writesNumbers(const Request& request) const {
   if (!isRegister(request.area)) return true;
   return std::ranges::all_of(exchange_.inputs(), [&](const ExchangedPin& pin) {
@@ -107,9 +107,9 @@ namespace {
 
 using host::Area;
 
-constexpr size_t kPrefix = 6;     // bytes of the header that the length does not count
-constexpr size_t kHeader = 7;     // with the unit
-constexpr uint8_t kAnswers = 128; // from this function on
+constexpr size_t kPrefix = 6;     // header bytes that the length does not include
+constexpr size_t kHeader = 7;     // including the unit
+constexpr uint8_t kAnswers = 128; // function codes from here on are answers
 constexpr uint32_t kPlaces = 65536;
 
 enum class Shape : uint8_t { Range, One, Many };
@@ -118,7 +118,7 @@ struct Function {
   uint8_t code;
   Area area;
   Shape shape;
-  uint32_t most; // places
+  uint32_t most; // addresses
 };
 
 constexpr Function kFunctions[] = {
@@ -134,7 +134,7 @@ constexpr Function kFunctions[] = {
 
 uint32_t wordAt(std::span<const uint8_t> bytes, size_t at) { return uint32_t{bytes[at]} << 8 | bytes[at + 1]; }
 
-// Address, value.
+// Contents: address, value.
 Exception parseOne(std::span<const uint8_t> words, const Function& function, Request& request) {
   if (words.size() != 4) return Exception::Value;
   const uint32_t value = wordAt(words, 2);
@@ -144,7 +144,7 @@ Exception parseOne(std::span<const uint8_t> words, const Function& function, Req
   return Exception::None;
 }
 
-// Address, count; of Many how many bytes follow, and these.
+// Contents: address, count; for Many, also the number of bytes and the bytes.
 Exception parseRange(std::span<const uint8_t> words, const Function& function, Request& request) {
   const bool isMany = function.shape == Shape::Many;
   const size_t before = isMany ? 5 : 4;
@@ -194,7 +194,7 @@ Integer limited(double value) noexcept {
       std::clamp(std::round(value), static_cast<double>(Limits::min()), static_cast<double>(Limits::max())));
 }
 
-// What the pin's type holds of a number.
+// Limits a number to the type of the pin.
 double held(PinType type, double value) noexcept {
   switch (type) {
   case PinType::Bit: return value != 0 ? 1 : 0;
@@ -217,7 +217,7 @@ T load(const uint8_t* bytes) noexcept {
   return value;
 }
 
-// A finite value of 32 bits: what is larger is not a number for the other side.
+// The nearest finite 32-bit value, because the other side would not accept infinity as a number.
 uint32_t floatBits(double value) noexcept {
   constexpr double kMost = std::numeric_limits<float>::max();
   return std::bit_cast<uint32_t>(static_cast<float>(std::isnan(value) ? 0 : std::clamp(value, -kMost, kMost)));

@@ -1,5 +1,5 @@
-// See modbus_server.h. Sockets and the limits of clients are here; libmodbus, which would wait for the rest of a
-// message, carries out requests that are whole and have been checked.
+// See modbus_server.h. Sockets and the limits of clients are handled here; libmodbus, which would wait for the rest of
+// a message, executes only complete, checked requests.
 #include "machine/io/connections/modbus_server.h"
 
 #include <arpa/inet.h>
@@ -20,7 +20,7 @@
 namespace rung::io {
 namespace {
 
-constexpr int kTurnMs = 20; // of the wait for clients
+constexpr int kTurnMs = 20; // time that a turn waits for clients
 constexpr double kBurstSeconds = 0.02;
 
 struct Address {
@@ -64,8 +64,8 @@ void sendAtOnce(int socket) {
   setsockopt(socket, IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);
 }
 
-// A whole answer: the kernel says so while a third of the buffer is free. A client that does not take its answers has
-// less.
+// Whether there is room for a complete answer: the kernel reports it while a third of the buffer is free, which is not
+// the case for a client that does not read its answers.
 bool hasRoom(int socket) {
   pollfd asked{socket, POLLOUT, 0};
   return poll(&asked, 1, 0) == 1 && asked.revents == POLLOUT;
@@ -90,7 +90,7 @@ void ModbusServer::run(const std::atomic<bool>& ending) noexcept {
 
 void ModbusServer::turn() {
   std::vector<pollfd> waiting = {listening_.awaited()};
-  for (const Client& client : clients_) // one that has used up its requests is not listened to
+  for (const Client& client : clients_) // clients without allowance are not read
     waiting.push_back({client.socket.number(), static_cast<short>(client.allowance >= 1 ? POLLIN : 0), 0});
   poll(waiting.data(), waiting.size(), waitFor());
   const int64_t now = runtime::monotonicNs();
@@ -100,7 +100,7 @@ void ModbusServer::turn() {
   if (waiting.front().revents != 0) accept(now);
 }
 
-// Milliseconds: not long where a client waits for its next request.
+// In milliseconds; short while a client waits for its next request.
 int ModbusServer::waitFor() const {
   const auto waits = [this](const Client& client) { return client.allowance < 1 || hasMessage(client); };
   return std::ranges::any_of(clients_, waits) ? 1 : kTurnMs;
@@ -118,20 +118,20 @@ void ModbusServer::accept(int64_t now) {
   client.heardNs = client.refilledNs = now;
 }
 
-// A client whose cable was pulled never says so.
+// Drops the quietest client if it is silent: a client whose cable was unplugged sends nothing any more.
 void ModbusServer::makeRoom(int64_t now) {
   if (clients_.size() < mostClients_) return;
   const auto quietest = std::ranges::min_element(clients_, {}, &Client::heardNs);
   if (now - quietest->heardNs > exchange_.timeoutNs()) clients_.erase(quietest);
 }
 
-// A message at a time: others ask, too.
+// Answers one message, so that other clients get their turn.
 void ModbusServer::serve(Client& client, int events, int64_t now) {
   client.ended = (events & ~POLLIN) != 0;
   refill(client, now);
   if (events == POLLIN && !hasMessage(client)) receive(client, now);
   if (!client.ended && client.allowance >= 1 && hasMessage(client)) answer(client, now);
-  // The rest of a message is waited for no longer than for a client itself.
+  // The rest of a message must arrive within the timeout.
   if (client.size != 0 && !hasMessage(client) && now - client.heardNs > exchange_.timeoutNs()) client.ended = true;
 }
 
@@ -146,7 +146,7 @@ void ModbusServer::receive(Client& client, int64_t now) {
       recv(client.socket.number(), client.bytes.data() + client.size, client.bytes.size() - client.size, 0);
   if (got < 0 && (errno == EAGAIN || errno == EINTR)) return;
   if (got <= 0) return void(client.ended = true);
-  if (client.size == 0) client.heardNs = now; // a message has begun
+  if (client.size == 0) client.heardNs = now; // a new message begins
   client.size += static_cast<size_t>(got);
   if (!messageLength({client.bytes.data(), client.size})) {
     setProblem("a client sent what is not a request of Modbus TCP");
@@ -169,7 +169,7 @@ void ModbusServer::answer(Client& client, int64_t now) {
   if (!messageLength({client.bytes.data(), client.size})) client.ended = true;
 }
 
-// False: the client does not take it.
+// Returns false if the client does not accept the answer.
 bool ModbusServer::reply(const Client& client, int length, int64_t now) {
   Request request;
   Exception wrong = parseRequest({client.bytes.data(), static_cast<size_t>(length)}, request);
@@ -178,7 +178,7 @@ bool ModbusServer::reply(const Client& client, int length, int64_t now) {
   modbus_set_socket(context_.get(), client.socket.number());
   if (wrong != Exception::None)
     return modbus_reply_exception(context_.get(), client.bytes.data(), static_cast<unsigned>(wrong)) > 0;
-  // What was written before a silence is over, as for the program.
+  // Values written before a silence have expired, as for the program.
   if (now - writtenNs_ > exchange_.timeoutNs()) image_.resetInputs();
   if (!request.writes) image_.refreshOutputs();
   const bool taken = modbus_reply(context_.get(), client.bytes.data(), length, image_.tables()) > 0;
@@ -186,7 +186,7 @@ bool ModbusServer::reply(const Client& client, int length, int64_t now) {
   return taken;
 }
 
-// Where there are inputs, only a client that writes them counts: another client may continue to read.
+// If there are inputs, only writing clients keep the connection alive: another client may continue to read.
 void ModbusServer::published(bool wrote, int64_t now) {
   if (!wrote && !exchange_.inputs().empty()) return;
   writtenNs_ = now;

@@ -1,5 +1,5 @@
-// A server of Modbus TCP: clients read the outputs and write the inputs of a connection. A client that sends half a
-// message, floods, or takes no answers costs the others nothing.
+// A Modbus TCP server: clients read the outputs and write the inputs of a connection. Clients that send incomplete
+// messages, flood the server or do not read its answers do not affect other clients.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -17,17 +17,17 @@ namespace rung::io {
 
 class ModbusServer final : public Service {
 public:
-  // Listens from now on. Throws std::runtime_error where it cannot.
+  // Listens from now on. Throws std::runtime_error if that is not possible.
   ModbusServer(const host::Connection& connection, Exchange& exchange);
   void run(const std::atomic<bool>& ending) noexcept override;
 
 private:
   struct Client {
     host::Socket socket;
-    int64_t heardNs = 0;    // of its last whole message, or of its beginning
-    int64_t refilledNs = 0; // when `allowance` was last added to
-    double allowance = 1;   // requests that may be answered now
-    size_t size = 0;        // bytes of a message that have come
+    int64_t heardNs = 0;    // time of the last complete message, or of the beginning of the current one
+    int64_t refilledNs = 0; // when `allowance` was last increased
+    double allowance = 1;   // number of requests that may be answered now
+    size_t size = 0;        // received bytes of the current message
     bool ended = false;
     std::array<uint8_t, kLongestMessage> bytes{};
   };
@@ -39,7 +39,7 @@ private:
   int waitFor() const;
   void accept(int64_t now);
   void makeRoom(int64_t now);
-  void serve(Client& client, int events, int64_t now); // of poll
+  void serve(Client& client, int events, int64_t now); // `events`: of poll
   void refill(Client& client, int64_t now) const;
   void receive(Client& client, int64_t now);
   bool hasMessage(const Client& client) const;
@@ -49,7 +49,7 @@ private:
 
   uint32_t mostClients_;
   double requestsPerNs_;
-  double burst_; // requests at once
+  double burst_; // largest number of requests answered at once
   Exchange& exchange_;
   ModbusImage image_;
   std::unique_ptr<modbus_t, Free> context_;

@@ -20,13 +20,13 @@
 namespace rung::io {
 namespace {
 
-constexpr int64_t kLookNs = 20'000'000;  // between two looks whether to end
-constexpr int64_t kKeepNs = 500'000'000; // between two looks whether the file is as it was
+constexpr int64_t kLookNs = 20'000'000;  // between two checks for the end
+constexpr int64_t kKeepNs = 500'000'000; // between two checks of the file
 constexpr mode_t kMode = 0600;
 constexpr mode_t kAllModes = 07777;
 constexpr size_t kAlignment = 8;
 
-// Bytes of an area, up to where the next may begin.
+// Size of an area in bytes, rounded up to the alignment of the next one.
 size_t sizeOf(const std::vector<ExchangedPin>& pins) {
   size_t end = 0;
   for (const ExchangedPin& pin : pins) end = std::max(end, size_t{pin.place.place} + bytesOf(pin.place.format));
@@ -35,7 +35,7 @@ size_t sizeOf(const std::vector<ExchangedPin>& pins) {
 
 std::string openProblem(int code) {
   if (code == ELOOP) return "it is a symbolic link";
-  if (code == EINVAL) return "it is a folder"; // as shm_open has it
+  if (code == EINVAL) return "it is a folder"; // result of shm_open
   return std::strerror(code);
 }
 
@@ -52,12 +52,12 @@ SharedMemory::SharedMemory(const host::Connection& connection, Exchange& exchang
 SharedMemory::~SharedMemory() {
   struct stat about{};
   const bool isOurs = fstat(file_.number(), &about) == 0 && about.st_nlink != 0;
-  if (isOurs) shm_unlink(name_.c_str()); // else another may have the name
+  if (isOurs) shm_unlink(name_.c_str()); // otherwise the name may belong to another process
 }
 
 void SharedMemory::refuse(const std::string& found) const { throw std::runtime_error(title_ + ": " + found); }
 
-// shm_open follows no symbolic links. What is not ours is not kept open.
+// shm_open does not follow symbolic links. A file that is not ours is closed again.
 void SharedMemory::open() {
   file_ = host::Socket();
   host::Socket file(shm_open(name_.c_str(), O_RDWR | O_CREAT, kMode));
@@ -79,7 +79,7 @@ void SharedMemory::checkOwner(int file) const {
     refuse("/dev/shm" + name_ + " may be used by others than its user; remove it");
 }
 
-// Programs that have mapped it already stay connected: its sequence continues.
+// Programs that have already mapped the file stay connected, because its sequence continues.
 void SharedMemory::layOut() {
   header_.outputsSize = static_cast<uint32_t>(outputs_.size());
   header_.inputsAt = header_.outputsAt + header_.outputsSize;
@@ -92,7 +92,7 @@ void SharedMemory::layOut() {
     refuse("cannot write /dev/shm" + name_ + ": " + std::strerror(errno));
 }
 
-// A later write finds the memory there.
+// Allocates the memory, so that later writes cannot fail.
 bool SharedMemory::reserve(int64_t size) const {
   errno = posix_fallocate(file_.number(), 0, size);
   return errno == 0;
@@ -106,8 +106,8 @@ bool SharedMemory::put(const void* from, size_t size, uint32_t at) const {
   return pwrite(file_.number(), from, size, at) == static_cast<ssize_t>(size);
 }
 
-// Makes the file anew where another program has removed it, or written over its head: one that opens it now would not
-// find this side.
+// Restores the file if another program has removed it or overwritten its header, so that programs that open it now find
+// this side.
 void SharedMemory::keep() noexcept try {
   constexpr size_t kConstant = offsetof(Header, outputsSequence);
   struct stat about{};
@@ -132,7 +132,7 @@ void SharedMemory::run(const std::atomic<bool>& ending) noexcept {
       keep();
       kept = now;
     }
-    if (isOpen()) { // else `keep` tries again
+    if (isOpen()) { // otherwise `keep` tries again
       writeOutputs();
       readInputs(now);
     }
@@ -164,13 +164,13 @@ void SharedMemory::readInputs(int64_t now) {
     return get(&sequence, sizeof sequence, offsetof(Header, inputsSequence));
   };
   bool whole = look(before);
-  if (whole && (before == taken_ || before % 2 != 0)) return; // nothing new, or it is being written
+  if (whole && (before == taken_ || before % 2 != 0)) return; // nothing new, or being written
   std::atomic_thread_fence(std::memory_order_seq_cst);
   whole = whole && get(inputs_.data(), inputs_.size(), header_.inputsAt);
   std::atomic_thread_fence(std::memory_order_seq_cst);
   whole = whole && look(after);
   if (!whole) return setProblem("the memory has been shortened by another program");
-  if (after != before || !takeInputs()) return; // written meanwhile: the next look has it
+  if (after != before || !takeInputs()) return; // changed during the read: the next call reads it
   taken_ = before;
   exchange_.publish(values_, now);
 }

@@ -1,5 +1,5 @@
-// Shared memory with another program of the same user: docs/mapping-file.md describes what lies in it. It is read and
-// written by calls of the system and not mapped, so that a program that shortens it ends only itself.
+// Memory shared with another program of the same user; docs/mapping-file.md describes its layout. It is accessed by
+// system calls and not mapped, so that a program that truncates it harms only itself.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -14,7 +14,7 @@ class SharedMemory final : public Service {
 public:
   static constexpr uint32_t kMagic = 0x474E5552; // "RUNG"
   static constexpr uint32_t kVersion = 1;
-  // As it lies there, before the outputs.
+  // The layout of the header, which precedes the outputs.
   struct Header {
     uint32_t magic = kMagic;
     uint32_t version = kVersion;
@@ -23,13 +23,13 @@ public:
     uint32_t inputsAt = 0;
     uint32_t inputsSize = 0;
     uint32_t outputsSequence = 0; // odd while the outputs are being written
-    uint32_t inputsSequence = 0;  // the same of the other side
+    uint32_t inputsSequence = 0;  // the same for the inputs, set by the other side
   };
 
-  // Makes it, or takes over what a host that was killed has left. Throws std::runtime_error where something else has
-  // the name, or another process uses it.
+  // Creates the memory, or takes over that of a host that was killed. Throws std::runtime_error if something else has
+  // the name, or another process uses the memory.
   SharedMemory(const host::Connection& connection, Exchange& exchange);
-  ~SharedMemory() override; // nothing is left of it
+  ~SharedMemory() override; // removes the memory
   SharedMemory(const SharedMemory&) = delete;
   SharedMemory& operator=(const SharedMemory&) = delete;
   void run(const std::atomic<bool>& ending) noexcept override;
@@ -49,12 +49,12 @@ private:
   [[noreturn]] void refuse(const std::string& found) const;
 
   std::string title_;
-  std::string name_; // with the slash
+  std::string name_; // including the slash
   Exchange& exchange_;
   int64_t periodNs_;
   host::Socket file_;
   Header header_;
-  uint32_t taken_ = 0; // sequence of the inputs that were last taken
+  uint32_t taken_ = 0; // sequence of the inputs taken last
   std::vector<uint8_t> outputs_, inputs_;
   std::vector<double> values_; // of the inputs
 };

@@ -41,7 +41,7 @@ Master::Ticket command(Master& master, Station at, const DeviceCall& call) {
   return master.command(at, call.number(2));
 }
 
-// 0: the master does not take it.
+// Returns 0 if the master does not accept the request.
 Master::Ticket ask(Master& master, const DeviceCall& call) {
   const Station at = {call.number(0), call.number(1)};
   switch (call.kind()) {
@@ -57,7 +57,7 @@ bool writes(ServiceKind kind) {
   return kind == ServiceKind::EthercatWriteObject || kind == ServiceKind::EthercatWriteIdn;
 }
 
-// Results: DR, Len, of what reads the number of its data, of an IDN its elements.
+// Results: DR, Len, then for reads the number of data bytes, and for an IDN its elements.
 enum Result : uint32_t { kCode, kLength, kRest, kMostResults = 4 };
 
 } // namespace
@@ -152,7 +152,7 @@ void StateRequests::reset(bool byProgram) noexcept {
   startSeen_ = start_ = false;
 }
 
-// The bit stays set after the start, so that its rise alone counts.
+// The start bit stays set after the start, so only its rising edge counts.
 void StateRequests::tick(StateBits& bits) noexcept {
   if (byProgram_ && bits.startCyclicOperation && !startSeen_) start_ = true;
   startSeen_ = bits.startCyclicOperation;

@@ -23,7 +23,7 @@ namespace rung::io {
 namespace {
 
 #ifdef __GLIBC__
-// What others change of a mutex while it is locked: they note that they wait.
+// The bit of a locked mutex that other threads set: it shows that they wait.
 constexpr int kWaiters = INT32_MIN; // FUTEX_WAITERS
 
 int lockWord(const pthread_mutex_t& mutex) { return __atomic_load_n(&mutex.__data.__lock, __ATOMIC_RELAXED); }
@@ -36,7 +36,7 @@ bool isAsLocked(const pthread_mutex_t& mutex, const pthread_mutex_t& asLocked) {
   return std::ranges::equal(std::as_bytes(std::span(&now, 1)), std::as_bytes(std::span(&asLocked, 1)));
 }
 
-// A mutex that was written over would make the C library follow whatever it holds as pointers.
+// Checks the kind of a mutex: the C library would use the contents of an overwritten one as pointers.
 bool isRobust(const pthread_mutex_t& mutex) {
   static const int kKind = [] {
     pthread_mutex_t fresh;
@@ -76,12 +76,12 @@ void SharedAreas::Unmap::operator()(Layout* layout) const noexcept {
 
 SharedAreas::SharedAreas() : layout_(new Layout(), Unmap{false}) {
   initialize(*layout_);
-  isRobust(layout_->mutexes[0]); // its first call is not a scan's
+  isRobust(layout_->mutexes[0]); // the first call must not be in a scan
 }
 
 SharedAreas::~SharedAreas() = default;
 
-// A file that has been shortened has no memory any more, and touching it would end the process.
+// Checks the length of the file: access beyond its end would terminate the process.
 bool SharedAreas::isSound(uint32_t area) const noexcept {
   if (!file_.ok()) return true;
   struct stat about{};
@@ -136,7 +136,7 @@ std::span<uint8_t> SharedAreas::bytes(uint32_t area) noexcept {
   return area < kAreas ? std::span<uint8_t>(layout_->areas[area].bytes) : std::span<uint8_t>();
 }
 
-// The file of shared areas: making it, and joining the others who have mapped it.
+// The file of shared areas: creating it, and sharing it with other processes.
 
 namespace {
 
@@ -152,7 +152,7 @@ constexpr Head kHead{kMagic,
                      sizeof(pthread_mutex_t),
                      offsetof(Layout, areas)};
 constexpr mode_t kMode = 0600, kOthers = 0077;
-constexpr int kTries = 100; // of a lock that is held while the file is created
+constexpr int kTries = 100; // while another process holds the lock to create the file
 constexpr auto kBetweenTries = std::chrono::milliseconds(10);
 
 static_assert(sizeof(Head) == 32 && alignof(pthread_mutex_t) <= sizeof(Head));
@@ -167,7 +167,7 @@ std::string notOurs(const struct stat& about) {
   return {};
 }
 
-// Nothing is waited for: a pipe or a device of this name is refused.
+// Opening does not block; a pipe or a device is refused.
 std::string open(const std::string& path, runtime::File& file, off_t& size) {
   file = runtime::File(::open(path.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, kMode));
   if (!file.ok()) return runtime::fileProblem(errno);
@@ -195,7 +195,7 @@ Layout* map(int fd) {
   return memory == MAP_FAILED ? nullptr : static_cast<Layout*>(memory);
 }
 
-// "", or why the contents are not those of shared areas; `isFirst`: they are to be made.
+// Returns "", or why the contents are not those of shared areas; `isFirst`: they have to be initialized.
 std::string check(Layout& layout, bool isFirst) {
   if (isFirst ? !mayBeMadeAnew(layout.head) : !isHead(layout.head))
     return "it is not a file of shared areas of version " + std::to_string(SharedAreas::kVersion);
@@ -210,7 +210,7 @@ void makeMutex(pthread_mutex_t& mutex) {
   pthread_mutexattr_init(&kind);
   pthread_mutexattr_setpshared(&kind, PTHREAD_PROCESS_SHARED);
   pthread_mutexattr_setrobust(&kind, PTHREAD_MUTEX_ROBUST);
-  std::memset(&mutex, 0, sizeof mutex); // also what the library leaves as it is
+  std::memset(&mutex, 0, sizeof mutex); // including bytes that the library does not initialize
   pthread_mutex_init(&mutex, &kind);
   pthread_mutexattr_destroy(&kind);
 }
@@ -235,7 +235,7 @@ std::string SharedAreas::mapFile(const std::string& path) {
   const bool isFirst = ::flock(file.fd(), LOCK_EX | LOCK_NB) == 0;
   if (!isFirst && !share(file.fd())) return cannot("another program keeps it locked");
   struct stat about{};
-  if (::fstat(file.fd(), &about) == 0) size = about.st_size; // it may have been made meanwhile
+  if (::fstat(file.fd(), &about) == 0) size = about.st_size; // another process may have created it meanwhile
   if (size != static_cast<off_t>(sizeof(Layout)) && !(isFirst && size == 0)) return cannot(wrongSize(size));
   errno = ::posix_fallocate(file.fd(), 0, sizeof(Layout));
   if (errno != 0) return cannot(runtime::fileProblem(errno));

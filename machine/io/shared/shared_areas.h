@@ -1,12 +1,11 @@
-// The shared areas of the PLC (man. l.15489-15631): two, of 32000 bytes, each with its own mutex. They are memory of
-// the process, or of a file that other programs map as well; a program of theirs finds below what lies there, and uses
-// the mutexes with pthread_mutex_lock.
+// The shared areas of the PLC (man. l.15489-15631): two, of 32000 bytes, each with its own mutex. They are in the
+// memory of the process, or in a file that other programs map as well, with the layout below and pthread_mutex_lock.
 //
-// Reading and writing never wait and allocate nothing; of a file, each asks the system once how long it is. For an area
-// that another program has locked the instruction has to be repeated. A program that ended while it had locked one
-// loses it. What other programs write over the head, the mutexes, or the length of the file is an error of reading and
-// writing, and no bytes are moved. No program can be kept from doing that within the microsecond of an access; so the
-// file is the user's alone.
+// Reading and writing never wait and allocate nothing; with a file, each asks the system once for its length. If
+// another program has locked an area, the instruction must be repeated. A lock is released when its program ends. If
+// another program has overwritten the head or the mutexes, or changed the length of the file, reading and writing
+// return an error and move no bytes. It cannot be prevented that a program does so within the microsecond of an access;
+// the file is therefore accessible only to its user.
 #pragma once
 #include <array>
 #include <atomic>
@@ -23,11 +22,11 @@ namespace rung::io {
 
 enum class AreaResult : uint8_t {
   Done = 0,
-  // Errors, the values of DR after SA_*.
+  // Errors: values of DR after SA_*.
   NoArea = 1,
   Outside = 2, // offset + size > 32000 (l.15561)
-  Broken = 3,  // another program has written over the file's head or mutex, or shortened it
-  // No error: RLO and DR are 0, and the instruction is to be repeated (l.15557).
+  Broken = 3,  // another program has overwritten the file's head or mutex, or truncated it
+  // No error: RLO and DR are 0, and the instruction must be repeated (l.15557).
   Locked,
 };
 
@@ -37,7 +36,7 @@ public:
   static constexpr uint32_t kAreaBytes = 32000;
   static constexpr uint32_t kVersion = 1;
 
-  // What lies in a file, as a compiler of C for this machine lays it out; the numbers are of the machine's byte order.
+  // The contents of a file, with the layout of a C compiler for this machine and in native byte order.
   struct Head {
     std::array<char, 8> magic; // "RUNG-SA", written last
     uint32_t version;
@@ -57,33 +56,33 @@ public:
     std::array<Area, kAreas> areas;
   };
 
-  SharedAreas(); // in memory of the process, all 0
+  SharedAreas(); // in memory of the process, filled with 0
   ~SharedAreas();
   SharedAreas(const SharedAreas&) = delete;
   SharedAreas& operator=(const SharedAreas&) = delete;
 
-  // Before the program runs: the areas are those of the file from then on. It is made where there is none, with mode
-  // 0600, and holds a shared flock on it as long as the areas live; other programs that map it must hold one as well.
-  // The first program begins with areas that are 0 and unlocked; later ones find them as the others have them. "" or
-  // why not ("cannot use FILE: ..."); the areas are then as before.
+  // Maps a file, to be called before the program runs. A missing file is created with mode 0600. This object holds a
+  // shared flock on it during its lifetime; other programs that map it must do the same. If no other program holds one,
+  // the areas are set to 0 and unlocked; otherwise they stay as they are. Returns "", or the error ("cannot use FILE:
+  // ..."); the areas are then unchanged.
   std::string mapFile(const std::string& path);
 
-  // SA_READ, SA_WRITE. A size of 0 is done, or the error of the area or the offset; it needs no lock.
+  // SA_READ, SA_WRITE. With size 0, the result is Done or the error of the area or the offset, and no lock is needed.
   AreaResult read(uint32_t area, uint32_t offset, std::span<uint8_t> to) noexcept;
   AreaResult write(uint32_t area, uint32_t offset, std::span<const uint8_t> from) noexcept;
 
-  // Another program holds the mutex, for this object (event SA_LOCK). False: there is no such area.
+  // Simulates, for this object, that another program has locked the area (event SA_LOCK). Returns false if there is no
+  // such area.
   bool hold(uint32_t area, bool on) noexcept;
-  // A power-up of a simulated control: the areas are 0, and not locked.
+  // Power-up of a simulated control: sets the areas to 0 and unlocks them.
   void clear() noexcept;
 
-  // For tests, which set and read values beside the program: without the mutex, whichever thread holds it. Empty: there
-  // is no such area.
+  // For tests, which access values besides the program: does not lock the mutex. Empty: there is no such area.
   std::span<uint8_t> bytes(uint32_t area) noexcept;
 
 private:
   struct Unmap {
-    bool mapped; // else made by new
+    bool mapped; // otherwise made by new
     void operator()(Layout* layout) const noexcept;
   };
 
@@ -96,17 +95,17 @@ private:
   std::array<std::atomic<bool>, kAreas> held_{};
 };
 
-// What lies in the memory of shared areas, as they are made.
+// Initialization and checks of the memory of shared areas.
 
 void makeMutex(pthread_mutex_t& mutex);
-// All 0 and unlocked; the head is written last, so that who finds it finds the rest.
+// Sets everything to 0 and unlocked. The head is written last, so that a program that finds it finds the rest as well.
 void initialize(SharedAreas::Layout& layout);
 bool isHead(const SharedAreas::Head& head) noexcept;
-// Ours, whatever the version, or one whose making was interrupted.
+// Whether the head is one of ours, of any version, or one whose initialization was interrupted.
 bool mayBeMadeAnew(const SharedAreas::Head& head) noexcept;
 
-// `asLocked` is a copy of the mutex from when it was locked. Broken: it was written over since, so that another program
-// may have locked it as well; it is then sound again.
+// Unlocks a mutex. `asLocked` is a copy of the mutex made after locking it. Broken: the mutex was overwritten since
+// then, so another program may have locked it as well; it has been repaired.
 AreaResult unlockArea(pthread_mutex_t& mutex, const pthread_mutex_t& asLocked) noexcept;
 
 } // namespace rung::io

@@ -79,7 +79,7 @@ bool PlcTable::textsFit(const uint8_t* lines, uint32_t lineCount, uint32_t end, 
   return fit && found == inUse;
 }
 
-// In the order of the lines; what was in `texts` stays in `otherTexts` until the next time.
+// Copies the texts in the order of the lines; the old `texts` become `otherTexts`.
 void PlcTable::compactTexts() noexcept {
   textsEnd = 0;
   for (uint32_t i = 0; i < count; ++i)
@@ -147,7 +147,7 @@ std::string readText(PlcTable& table, std::string_view written, uint8_t* element
   return putText(table, asBytes(bytes), "characters", element);
 }
 
-// Pairs of hexadecimal digits; nothing where they are not.
+// Parses pairs of hexadecimal digits; nothing if the text is something else.
 std::optional<std::vector<uint8_t>> pairsIn(std::string_view written) {
   std::vector<uint8_t> bytes;
   for (std::string_view rest = text::trimmed(written); !rest.empty(); rest = text::trimmed(rest)) {
@@ -166,7 +166,7 @@ std::string readBinary(PlcTable& table, std::string_view written, uint8_t* eleme
 }
 
 std::string written(double value) {
-  std::array<char, 32> text{}; // a double has 24 characters at most
+  std::array<char, 32> text{}; // a double has at most 24 characters
   const auto [end, error] = std::to_chars(text.data(), text.data() + text.size(), value);
   return {text.data(), end};
 }

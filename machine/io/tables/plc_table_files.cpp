@@ -68,7 +68,7 @@ private:
   }
 
   void readType() {
-    constexpr std::string_view kNames[] = {"INT", "REAL", "STRING", "BINARY"}; // by ColumnType, from 1
+    constexpr std::string_view kNames[] = {"INT", "REAL", "STRING", "BINARY"}; // indexed by ColumnType, from 1
     const std::string name = word();
     const auto* at = std::find(std::begin(kNames), std::end(kNames), name);
     if (at != std::end(kNames))
@@ -100,7 +100,7 @@ private:
   }
 
   TableDefinition found_;
-  TableColumn column_; // that is being read
+  TableColumn column_; // currently being read
   std::optional<uint32_t> number_;
   std::map<uint32_t, TableColumn> columns_;
   std::map<std::string, host::FilePlace, std::less<>> ids_;
@@ -167,7 +167,7 @@ private:
   TableData found_;
   std::optional<uint32_t> count_; // <LinesCount>
   host::FilePlace selectedPlace_;
-  std::map<uint32_t, host::FilePlace> numbers_; // of the lines
+  std::map<uint32_t, host::FilePlace> numbers_; // positions of lines, by number
 };
 
 } // namespace
@@ -192,11 +192,11 @@ std::string readTableData(const std::string& path, TableData& data) {
   return parseTableData(path, text, data);
 }
 
-// Data files of PLC tables as they are written.
+// Writing of data files.
 
 namespace {
 
-// Line ends are references, so that an element stays in its line and no parser makes one of another.
+// Line ends are written as references, so that an element stays on one line and parsers do not convert them.
 void escape(std::string& out, std::string_view text) {
   for (const char c : text) {
     switch (c) {
@@ -242,7 +242,7 @@ using text::trimmed;
 
 namespace {
 
-constexpr size_t kShown = 40; // bytes of a text in a complaint
+constexpr size_t kShown = 40; // bytes of a text in a message
 
 constexpr bool isText(Element element) {
   switch (element) {

@@ -1,4 +1,4 @@
-// What a program asks of PLC tables.
+// Requests of programs to PLC tables.
 #include "machine/io/tables/plc_tables.h"
 
 #include <algorithm>
@@ -158,18 +158,18 @@ TableError PlcTables::lineCount(uint32_t table, uint32_t& count) const noexcept 
   return TableError::None;
 }
 
-// The image of PLC tables that outlives a power-off: a head, and each table with a head of its own.
+// The image of PLC tables that survives power-off: a head, then each table with its own head.
 
 namespace {
 
-constexpr uint64_t kMagic = 0x32304C4254434C50; // "PLCTBL02": changes with the form of the image
+constexpr uint64_t kMagic = 0x32304C4254434C50; // "PLCTBL02": changes with the format of the image
 
 struct TableHead {
   uint64_t origin;
   uint32_t table;
   uint32_t count;
   uint32_t selected;
-  uint32_t bytes; // of lines and texts
+  uint32_t bytes; // size of lines and texts
   uint32_t textsEnd;
   uint32_t textsInUse;
 };
@@ -185,7 +185,7 @@ void append(std::span<uint8_t>& to, const void* from, size_t size) {
   to = to.subspan(size);
 }
 
-// The head of the next table, which is whole; false where the rest is something else.
+// Reads the head of the next table and checks that the table is complete; returns false otherwise.
 bool takeHead(std::span<const uint8_t>& from, TableHead& head) {
   if (from.size() < sizeof head) return false;
   std::memcpy(&head, from.data(), sizeof head);
@@ -253,14 +253,14 @@ void PlcTables::forgetChanges() noexcept {
     if (table) table->elementChanged = table->selectionChanged = false;
 }
 
-// PLC tables from the contents of their files and back.
+// Conversion of PLC tables from and to the contents of their files.
 
 namespace {
 
 constexpr size_t kMostComplaints = 100;
 constexpr size_t kColumnIdBytes = 255;
 
-// A table that is being made, with what is wrong with it.
+// A table that is being loaded, and its errors.
 class Loading {
 public:
   std::unique_ptr<PlcTable> table = std::make_unique<PlcTable>();
@@ -303,7 +303,7 @@ void Loading::columns(const TableDefinition& definition) {
   }
 }
 
-// Room for texts: none is longer in memory than it is written.
+// Room for texts: their size in memory is at most that in the file.
 uint64_t Loading::textBytes(const TableData& data) const {
   if (std::ranges::none_of(table->columns, [](const auto& column) { return isText(column.type); })) return 0;
   uint64_t bytes = PlcTables::kMoreTextBytes;
@@ -414,7 +414,7 @@ std::optional<TableData> PlcTables::contents(uint32_t table) const {
   return data;
 }
 
-// What an operator does with PLC tables (see plc_tables.h; man. l.18560-18600: buttons of the editor).
+// Operator functions of PLC tables (see plc_tables.h; man. l.18560-18600: buttons of the editor).
 
 namespace {
 
@@ -479,7 +479,7 @@ std::string PlcTables::removeLine(uint32_t table, uint32_t line) {
   std::copy(t.line(line + 1), t.line(t.count), t.line(line));
   --t.count;
   std::fill_n(t.line(t.count), t.lineBytes, uint8_t{0});
-  if (line <= t.selected) t.selectionChanged = true; // another line, or another number of it
+  if (line <= t.selected) t.selectionChanged = true; // another line is selected, or its number has changed
   if (line < t.selected || (t.selected == t.count && t.selected > 0)) --t.selected;
   t.elementChanged = t.dirty = true;
   return {};

@@ -1,5 +1,5 @@
-// The files of a control's PLC tables: which they are, reading them before the program runs, and writing those whose
-// tables have changed. Blocks: for configuration and a thread of the host, never for a scan.
+// The files of a control's PLC tables: their paths, reading them before the program runs, and writing those of changed
+// tables. Blocks: for the configuration and a thread of the host, never for the scan thread.
 #pragma once
 #include <cstdint>
 #include <map>
@@ -11,21 +11,21 @@ namespace rung::io {
 
 class TableFiles {
 public:
-  // PlcTableDefN and PlcTableN of the control (l.18333, l.18418), N from 0 to 255; a later file of a number takes the
-  // place of an earlier one. "" or what is wrong, a line "FILE:LINE:COLUMN: ..." each: then there is none of that
-  // number.
+  // Sets PlcTableDefN and PlcTableN of the control (l.18333, l.18418), N from 0 to 255; a later file with the same
+  // number replaces an earlier one. Returns "", or the errors, one line "FILE:LINE:COLUMN: ..." each; there is then no
+  // file with that number.
   std::string setDefinition(uint32_t number, const std::string& path);
   std::string setTable(uint32_t number, const std::string& path);
 
-  // After all files are set: makes the tables as the files had them when they were set, each by the definition whose ID
-  // it names (l.18362). "" or what is wrong, a line each; the tables concerned do not exist then, and their files are
-  // never written.
+  // To be called after all files are set: creates the tables with the contents that the files had when they were set,
+  // each with the definition whose ID it names (l.18362). Returns "", or the errors, one line each; the tables
+  // concerned do not exist then, and their files are never written.
   std::string load(PlcTables& tables) const;
 
-  // Writes the files of changed tables, where a second has passed since the last writing: each is the whole old or the
-  // whole new one at any time, and the new one on disk. "" or what went wrong; it is then tried again.
+  // Writes the files of changed tables if a second has passed since the last write. Each file is replaced atomically
+  // and synced to disk. Returns "", or the error; the write is then repeated.
   std::string save(PlcTables& tables, int64_t nowNs);
-  // The same at a regular end: at once.
+  // The same without waiting for the second, for a regular end.
   std::string saveNow(PlcTables& tables) const;
 
 private:

@@ -103,7 +103,7 @@ void answerTable(PlcTables& tables, DeviceCall& call) { call.set(0, static_cast<
 
 namespace {
 
-// RLO and DR: done, to be asked again, or an error (man. l.15557-15561).
+// Sets RLO and DR: done, to be repeated, or an error (man. l.15557-15561).
 void setArea(DeviceCall& call, AreaResult result) {
   call.set(0, result == AreaResult::Done ? 1 : 0);
   call.set(1, result == AreaResult::Locked ? 0 : static_cast<int64_t>(result));

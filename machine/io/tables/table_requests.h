@@ -9,7 +9,7 @@
 
 namespace rung::io {
 
-// The argument that means bytes of the program; nothing: none does.
+// The index of the argument that refers to bytes of the program; nothing: none does.
 std::optional<uint32_t> bytesArgumentOf(ServiceKind kind);
 void answerTable(PlcTables& tables, DeviceCall& call);
 

@@ -1,4 +1,4 @@
-// PLC tables in a thread of the host (see table_service.h).
+// See table_service.h.
 #include "machine/io/tables/table_service.h"
 
 #include <algorithm>
@@ -65,7 +65,7 @@ void TableService::end() {
   if (!thread_.joinable()) return;
   ending_ = true;
   thread_.join();
-  serve(); // what the last scan has asked
+  serve(); // requests of the last scan
   note(files_.saveNow(tables_));
 }
 
@@ -90,7 +90,7 @@ void TableService::serve() noexcept {
   }
 }
 
-// A problem that lasts is said once.
+// A persistent problem is reported once.
 void TableService::note(std::string problem) noexcept {
   const std::lock_guard lock(mutex_);
   if (problem == noted_) return;

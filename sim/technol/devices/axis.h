@@ -1,5 +1,5 @@
-// One axis of the simulated machine: its configuration, where it is physically and what it measures, its zero pulses,
-// and who moves it. Places in mm (degrees), speeds in mm/min (degrees/min), accelerations in mm/s² (degrees/s²).
+// One axis of the simulated machine: its configuration, its physical and measured positions, its zero pulses, and its
+// mover. Positions in mm (degrees), speeds in mm/min (degrees/min), accelerations in mm/s² (degrees/s²).
 #pragma once
 #include <array>
 #include <cstdint>
@@ -18,36 +18,36 @@ using io::kMaxAxes;
 using io::Motion;
 using io::Mover;
 
-// The place of `motion` is the physical one without the shift.
+// The position of `motion` is the physical one without the shift.
 class Axis : public io::DrivenAxis {
 public:
   Motion shift;         // SHIFT (l.11057): added to the path after the interpolator, not measured
   bool spindle = false; // speed loop, from AX_SPI to SPI_AX
 
-  // At power-up: at its place, measuring 0.
+  // Power-up: the axis is at its configured position and measures 0.
   void reset();
   double physical() const { return motion.position() + shift.position(); }
   double measured() const { return motion.position() + offset_; }
   double speedPerMinute() const { return (motion.speed() + shift.speed()) * 60; }
   bool moves() const { return !motion.isAtRest() || !shift.isAtRest(); }
-  // The place where it is has this measure.
+  // Sets the measure at the current position.
   void setMeasured(double value) { offset_ = value - motion.position(); }
-  // Puts it there, physically and measured.
+  // Sets the physical and the measured position.
   void setPhysical(double place);
-  // The place of `motion` with this measure.
+  // The position of `motion` for a measure.
   double placeOf(double measure) const { return measure - offset_; }
 
-  // Its mover leaves it: it brakes to a standstill, until which its motion is reported.
+  // The mover releases the axis: it brakes to a standstill, and its motion is reported until then.
   void brake(double acceleration);
   void tick();
 
   // Runs in the direction of the signed speed (per minute) past the next zero pulse and brakes from there. A pulse
-  // counts from where the speed is at most that and has the right direction.
+  // counts once the axis has the right direction and at most this speed.
   void seekPulse(double perMinute, double acceleration);
-  // It has passed the pulse, which thereby has the measure `value`.
+  // Returns whether the axis has passed the pulse; the measure at the pulse is then `value`.
   bool passedPulse(double value);
   void forgetPulse() { seeks_ = false; }
-  double pulse() const { return pulse_; } // the place of `motion` of the last one
+  double pulse() const { return pulse_; } // position of `motion` at the last pulse
 
 private:
   double nextPulse(double from, bool downwards) const;
@@ -57,8 +57,7 @@ private:
   double pulse_ = 0;
 };
 
-// The cells of the program that the axes read and write, as plain numbers. A mask has a bit an axis: axis n is bit n
-// - 1.
+// The program's cells that the axes read and write, as plain numbers. A mask has one bit per axis: axis n is bit n - 1.
 
 using io::AxisMask;
 using io::bitOf;
@@ -67,14 +66,14 @@ using io::has;
 using io::Hold;
 using io::setBit;
 
-// Only read. What is not said otherwise is as after MODULE_INIT.
+// Cells that are only read. The default values are those after MODULE_INIT.
 struct AxisInputs : io::AxisPermits {
   AxisMask manualEnabled = 0;                       // MPxMAN l.6216
   AxisMask refSwitch = 0, reverseSwitch = 0;        // KRx, KRRx l.6668
   AxisMask slowSwitch = 0;                          // ZPRx
-  AxisMask servoSwitch = 0;                         // REF_SERV_n, servo n is that of axis n
-  AxisMask blockMotion = 0;                         // axes that a block of the part program moves, of the scenario
-  bool block = false;                               // a block of the part program is under way
+  AxisMask servoSwitch = 0;                         // REF_SERV_n; servo n belongs to axis n
+  AxisMask blockMotion = 0;                         // axes that a block of the part program moves, from the scenario
+  bool block = false;                               // a block of the part program is in progress
   bool stopPi = false;                              // STOPPI l.6396
   bool feedOvr = false;                             // FEED_OVR l.6530
   uint16_t feedOverride = 1000;                     // WORD.BZH09, 1/1000
@@ -98,13 +97,13 @@ struct AxisInputs : io::AxisPermits {
   bool selectToggles = false;                   // AUTMAN_KNOB_TOGGLE
   uint8_t shiftEnable = 0x3F;                   // SHIFT_ENABLE
 
-  // FEED_OVR = 0 leaves the potentiometer %F, which the simulation has at 100 %.
+  // With FEED_OVR = 0 the potentiometer %F applies, which is always at 100 % in the simulation.
   double override() const { return (feedOvr ? feedOverride / 1000. : 1.) * (feedMultiplier / 1000.); }
 };
 
-// Written by both sides: copied in before the ticks and out after them.
+// Cells that both sides write: copied in before the ticks and out after them.
 struct AxisRequests {
-  AxisMask positioning = 0;                   // POLOHV_x: 0 written by the program aborts SPI_AX (l.7968)
+  AxisMask positioning = 0;                   // POLOHV_x: the program aborts SPI_AX by writing 0 (l.7968)
   AxisMask homing = 0;                        // HOMING l.6640
   AxisMask homingReq = 0, homingStartReq = 0; // HOMING_REQ, HOMING_START_REQ
   bool homingSingle = false, homingPlc = false, homingGroup = false;
@@ -117,9 +116,9 @@ struct AxisRequests {
   uint16_t knobStep = 0;                           // KNOB_STEP, µm
 };
 
-// Only written, all of them for axes that exist.
+// Cells that are only written, all of them for axes that exist.
 struct AxisOutputs : io::AxisReport {
-  bool inPosition = true;                          // INPOS: nothing moves but spindles
+  bool inPosition = true;                          // INPOS: nothing moves except spindles
   bool reference = false;                          // REFPI
   bool manual = false;                             // ACK_AUTMAN
   bool atStop = true;                              // INPOS_STOP
@@ -131,31 +130,31 @@ struct AxisOutputs : io::AxisReport {
   std::array<uint8_t, kMaxAxes> knobSelected = {}; // KnobSelAxn: 1 manual, 2 SHIFT
   std::array<double, kMaxAxes> position = {};      // mm: RTM.Axis.Posk_Ax, k < 6
   std::array<double, kMaxAxes> shiftMm = {};       // Pos6ShiftAxn; POS6 is position + shiftMm
-  std::array<double, kMaxAxes> speed = {};         // mm/min, signed: RTM.Axis.Inc_Ax, without what SHIFT adds
-  std::array<double, kMaxAxes> shiftSpeed = {};    // mm/min: what it adds
-  AxisMask movedByHand = 0;                        // their speed is that of manual motion
+  std::array<double, kMaxAxes> speed = {};         // mm/min, signed: RTM.Axis.Inc_Ax, without the speed of SHIFT
+  std::array<double, kMaxAxes> shiftSpeed = {};    // mm/min: the speed of SHIFT
+  AxisMask movedByHand = 0;                        // axes whose speed is that of manual motion
 };
 
 enum class Stop : uint8_t { None, Normal, Emergency };
 
-// What the log is to say: `ANALOG: axis 17`.
+// A message for the log: `ANALOG: axis 17`.
 struct Complaint {
   std::string_view instruction, operand;
   int64_t value = 0;
-  std::string_view reason; // begins with a blank, or nothing: out of range
+  std::string_view reason; // begins with a blank; empty: out of range
   std::string text() const {
     return std::string(instruction) + ": " + std::string(operand) + " " + std::to_string(value) + std::string(reason);
   }
 };
 
-// Messages that have not been fetched yet; the newest are lost when there are too many.
+// Messages that have not been taken yet; if there are too many, the newest are lost.
 class Complaints {
 public:
   void add(const Complaint& complaint) {
     if (count_ < kMost) list_[count_++] = complaint;
   }
   bool empty() const { return count_ == 0; }
-  // The oldest.
+  // Takes the oldest message.
   bool take(Complaint& complaint) {
     if (count_ == 0) return false;
     complaint = list_[0];

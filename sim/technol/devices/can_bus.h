@@ -1,5 +1,5 @@
-// One simulated CAN bus: what the control transmits reaches the nodes in the next tick, and their answers come back in
-// the same one.
+// One simulated CAN bus: packets of the control reach the nodes in the next tick, and their answers return in the same
+// tick.
 #pragma once
 #include <optional>
 #include <span>
@@ -18,10 +18,10 @@ public:
   explicit SimulatedCanBus(uint32_t number) : number_(number) {}
 
   uint32_t number() const { return number_; }
-  // Of the configuration.
+  // From the configuration.
   void setActive(bool active) { active_ = active; }
   bool isActive() const { return active_; }
-  // So many of the group; they are new ones if there were more or fewer.
+  // Sets the number of units in a group; a change of the number creates new ones.
   void setUnits(uint32_t group, uint32_t count);
   std::span<SimulatedUnit> units() { return units_; }
   std::span<const SimulatedUnit> units() const { return units_; }
@@ -30,9 +30,9 @@ public:
 
   void power();
   void tick();
-  // The controller has left the bus, or is back. Nothing that was under way arrives.
+  // The controller has left the bus, or returned. Packets in transit are lost.
   void setOff(bool off);
-  // A packet of a node that is not simulated; false: there is no room for it in this tick.
+  // Sends a packet of a node that is not simulated; returns false if there is no room for it in this tick.
   bool inject(const io::CanPacket& packet);
   NodePackets& answers() { return answers_; }
 
@@ -46,22 +46,22 @@ private:
   uint32_t number_;
   bool active_ = false, off_ = false;
   std::vector<SimulatedUnit> units_;
-  std::array<uint8_t, io::kCanNode + 1> numbers_{}; // of units in `units_` by node, from 1; 0: no unit
+  std::array<uint8_t, io::kCanNode + 1> numbers_{}; // position in `units_`, from 1, by node; 0: no unit
   std::vector<SimulatedDrive> drives_;
-  NodePackets wire_;    // from the control, and from outside
-  NodePackets answers_; // to the control
+  NodePackets wire_;    // packets of the control and from outside
+  NodePackets answers_; // packets for the control
 };
 
-// The CAN devices of the simulated control: two buses, of which the first one has drives and the second one I/O units,
-// panels and handwheels (man. ch. 9, 13.14), and the control's side of them, which a real bus would have, too
-// (io::CanController). What comes and goes is plain data: it knows no program and no scenario.
+// The CAN devices of the simulated control: two buses, the first with drives, the second with I/O units, panels and
+// handwheels (man. ch. 9, 13.14), and the control's side, which is the same for a real bus (io::CanController). Its
+// inputs and outputs are plain data, independent of programs and scenarios.
 //
-// Order of things: configure; power; then a tick a millisecond.
+// Order of calls: configure; power; then one tick per millisecond.
 
 struct CanInputs {
   io::UnitOrders units;
   io::DriveOrders drives;
-  // At the terminals of INOUT08: P1IN and on. Those of panels and handwheels are in their UnitWires.
+  // Terminals of INOUT08: from P1IN on. Those of panels and handwheels are in their UnitWires.
   std::array<uint8_t, io::kInputPorts> terminals{};
 };
 
@@ -70,17 +70,17 @@ struct CanOutputs {
   io::DriveStates drives;
 };
 
-// event CAN_UNIT: keys that it has not are empty.
+// Event CAN_UNIT: missing keys are empty.
 struct CanUnitEvent {
-  std::optional<uint8_t> error;                                // register 1001h; 0: gone
+  std::optional<uint8_t> error;                                // register 1001h; 0: error gone
   std::array<std::optional<uint8_t>, io::kUnitOutputs> shorts; // of OP0 to OP2
   std::optional<bool> silent;
 };
 
-// event CAN_DRIVE
+// Event CAN_DRIVE.
 struct CanDriveEvent {
   std::optional<uint16_t> fault; // error code of the emergency; 0: its cause is gone
-  bool hold = false;             // the cause stays
+  bool hold = false;             // the cause persists
   std::optional<uint16_t> mstat; // CAN_DRIVE_MSTAT
   std::optional<bool> silent;
 };
@@ -91,20 +91,21 @@ public:
   CanDevices(const CanDevices&) = delete;
   CanDevices& operator=(const CanDevices&) = delete;
 
-  // "CAN[1].InOut08Cnt", "CAN[1].INOUT08[0].CONTROL", "CAN[0].Drives", "drive.2.type" ... "" done, a text: what is
-  // wrong; nothing: a key of something else. Names in any case.
+  // Sets a key: "CAN[1].InOut08Cnt", "CAN[1].INOUT08[0].CONTROL", "CAN[0].Drives", "drive.2.type" ...; case does not
+  // matter. Returns "", or the error; nothing if the key is not one of CAN.
   std::optional<std::string> configure(std::string_view key, std::string_view value);
 
-  // Power off and on: everything starts anew and whole, what is wired to the units stays. Units have their mapping
-  // before the first tick, as the program of a control begins when its bus is ready.
+  // Power off and on: everything restarts without faults; the wiring of the units is kept. Units are mapped before the
+  // first tick, because a control starts its program when its bus is ready.
   void power();
-  // After that, where a scenario answers for the devices: no bus, but orders of packets on both channels.
+  // To be called after `power`, if a scenario replaces the devices: there is no bus, but packet subscriptions work on
+  // both channels.
   void openForScenario();
   void tick(const CanInputs& in, CanOutputs& out);
   // Instructions, packets, messages.
   io::CanController& control() { return control_; }
 
-  // ---- what a scenario does and sees; "" or what is wrong
+  // ---- actions and queries of a scenario; they return "", or the error
 
   std::string packetEvent(uint32_t channel, const io::CanPacket& packet);
   // The same without a bus.
@@ -113,11 +114,11 @@ public:
   std::string driveEvent(uint32_t drive, const CanDriveEvent& event);
   std::string busEvent(uint32_t channel, bool off);
 
-  // Null: there is no such unit. Boards from 1.
+  // Null: there is no such unit. Boards count from 1.
   UnitWires* wires(uint32_t group, uint32_t board);
   const io::Inouts* inouts(uint32_t group, uint32_t board) const { return control_.units().find(group, board); }
   const SimulatedUnit* unit(uint32_t group, uint32_t board) const;
-  // An object of a drive; nothing: it has no object of these numbers.
+  // The value of a drive's object; nothing: there is no such object.
   std::optional<uint32_t> driveObject(uint32_t drive, uint32_t index, uint32_t subindex) const;
   uint32_t drives() const { return control_.drives().count(); }
 

@@ -15,23 +15,23 @@ enum class ObjectAccess : uint8_t { ReadWrite, ReadOnly, WriteOnly };
 
 struct CanObject {
   io::sdo::Object place;
-  uint32_t bytes = 4; // 1, 2, 4
+  uint32_t bytes = 4; // 1, 2 or 4
   uint32_t value = 0;
   ObjectAccess access = ObjectAccess::ReadOnly;
 };
 
 class CanObjects {
 public:
-  // `noSubindex`: the code of an abort where the index has other subindices.
+  // `noSubindex`: the abort code if the index exists only with other subindices.
   explicit CanObjects(uint32_t noSubindex) : noSubindex_(noSubindex) {}
-  // In place of one that is there.
+  // Adds an object; replaces one with the same place.
   void add(const CanObject& object);
   const CanObject* find(io::sdo::Object place) const;
   uint32_t value(io::sdo::Object place) const;
-  // Nothing happens where there is no such object.
+  // Does nothing if there is no such object.
   void set(io::sdo::Object place, uint32_t value);
 
-  // The answer to a request; `written` is the object that it wrote, or null.
+  // The answer to a request; `written` is the object that the request has written, or null.
   io::CanPacket answer(uint32_t node, const io::CanPacket& request, const CanObject*& written);
 
 private:
@@ -42,13 +42,15 @@ private:
   std::vector<CanObject> objects_;
 };
 
-// A simulated unit on CAN channel 2: INOUT08, KLA50 or EPU panel, handwheel (man. 9.2, 9.6). The control's side of it
-// is io::CanUnit. 1600h and 1A00h, written while it is not operational, say what the bytes of RPDO1 and TPDO1 are;
-// by default they are outputs and inputs (l.4805-4858).
+// A simulated unit on CAN channel 2: INOUT08, KLA50 or EPU panel, handwheel (man. 9.2, 9.6). io::CanUnit is the
+// control's side.
+//
+// 1600h and 1A00h, which can be written while the unit is not operational, define the bytes of RPDO1 and TPDO1; by
+// default these are outputs and inputs (l.4805-4858).
 
 using NodePackets = io::BoundedQueue<io::CanPacket, 512>;
 
-// What is wired to a unit, and what is wrong with it.
+// The wiring of a unit, and its faults.
 struct UnitWires {
   std::array<uint8_t, io::kUnitInputs> in{};           // IP0 to IP3; IP0 and IP1 of a handwheel are its keys
   std::array<uint8_t, 8> analogue{};                   // 6404h: potentiometers, 0 left end, 0FFh right end (l.4459)
@@ -68,15 +70,15 @@ public:
   uint8_t node() const { return node_; }
   UnitWires& wires() { return wires_; }
   const UnitWires& wires() const { return wires_; }
-  // What is at the terminals OP0 to OP2.
+  // The state of the terminals OP0 to OP2.
   uint8_t output(uint32_t port) const;
-  // Null: it is not a handwheel.
+  // Null: the unit is not a handwheel.
   const HandwheelDisplay* display() const { return display_.empty() ? nullptr : display_.data(); }
 
-  // At a power-on. What is wired stays, what was wrong is gone.
+  // At a power-on: keeps the wiring and clears faults.
   void power();
   void receive(const io::CanPacket& packet, NodePackets& answers);
-  // A millisecond.
+  // One millisecond.
   void tick(NodePackets& answers);
 
 private:
@@ -94,18 +96,18 @@ private:
   uint8_t node_;
   UnitWires wires_;
   CanObjects objects_{io::sdo::kNoSuchObject};
-  std::vector<HandwheelDisplay> display_; // one, of a handwheel
+  std::vector<HandwheelDisplay> display_; // one element for a handwheel, otherwise empty
   bool operational_ = false;
-  bool sendsAnalogue_ = false; // TPDO2 after each SYNC, by object 1801h-1
+  bool sendsAnalogue_ = false; // sends TPDO2 after each SYNC, according to object 1801h-1
   io::PdoFields rpdo_{}, tpdo_{};
-  std::array<uint8_t, 8> received_{}; // RPDO1, taken over with SYNC
+  std::array<uint8_t, 8> received_{}; // RPDO1, applied at SYNC
   std::array<uint8_t, 8> shown_{};    // TOC_DISPLS
   std::array<uint8_t, io::kUnitOutputs> outputs_{};
   uint8_t reported_ = 0; // error register and shorts of the last emergency
   std::array<uint8_t, io::kUnitOutputs> reportedShorts_{};
 };
 
-// A simulated drive on CAN channel 1: Kollmorgen (or Berger-Lahr), by the states of CiA 402, or Unidrive (man. 13.14).
+// A simulated drive on CAN channel 1: Kollmorgen (or Berger-Lahr) with the states of CiA 402, or Unidrive (man. 13.14).
 
 class SimulatedDrive {
 public:
@@ -113,16 +115,17 @@ public:
 
   uint8_t node() const { return node_; }
   void setType(io::DriveType type) { type_ = type; }
-  // Objects of the configuration; they have their values again after a power-on.
+  // Adds an object of the configuration; a power-on restores its value.
   void addObject(const CanObject& object);
   const CanObjects& objects() const { return objects_; }
 
   void power();
   void receive(const io::CanPacket& packet, NodePackets& answers);
 
-  // ---- what a scenario does with it
+  // ---- actions of a scenario
 
-  // An emergency with this error code. `holds`: its cause stays, so that it cannot be reset. 0: the cause is gone.
+  // Sends an emergency with this error code. `holds`: its cause persists, so that it cannot be reset. 0: the cause is
+  // gone.
   void fault(uint16_t code, bool holds, NodePackets& answers);
   void setManufacturerStatus(uint16_t status) { manufacturer_ = status; }
   void setSilent(bool silent) { silent_ = silent; }
@@ -144,9 +147,9 @@ private:
   std::vector<CanObject> configured_;
   bool operational_ = false, silent_ = false;
   State state_ = State::SwitchOnDisabled;
-  uint16_t word_ = 0;     // control word; of a Unidrive the bits that its masks let in
-  uint16_t received_ = 0; // RPDO1, taken over with SYNC
-  uint16_t code_ = 0;     // of the fault
+  uint16_t word_ = 0;     // control word; for a Unidrive, the bits that its masks permit
+  uint16_t received_ = 0; // RPDO1, applied at SYNC
+  uint16_t code_ = 0;     // error code of the fault
   bool holds_ = false;
   uint16_t manufacturer_ = 0;
 };

@@ -1,5 +1,5 @@
-// The simulated serial ports (TECHNOL manual 23.3): what a program sends leaves a port at its speed, what comes from
-// outside is in its queue at once.
+// The simulated serial ports (TECHNOL manual 23.3): bytes of a program leave a port at its speed; bytes from outside
+// are in its queue at once.
 #pragma once
 #include <array>
 #include <span>
@@ -14,7 +14,7 @@ namespace rung::sim::technol {
 // One port's line.
 class ComLine {
 public:
-  static constexpr uint32_t kSentBytes = 65536; // sent bytes that have not been checked
+  static constexpr uint32_t kSentBytes = 65536; // sent bytes that have not been checked yet
 
   explicit ComLine(io::com::Port& port) : port_(port) {}
 
@@ -22,21 +22,20 @@ public:
   void powerOn();
   // One millisecond.
   void tick();
-  // While the line has an error it rests: nothing leaves it, and what comes is lost.
+  // While the line has an error, nothing leaves it, and received bytes are lost.
   void receive(std::span<const uint8_t> bytes);
 
-  // What has left the port and was not seen, from the oldest byte on. When there are more than kSentBytes, the oldest
-  // are lost.
+  // Sent bytes that have not been checked, from the oldest on. Beyond kSentBytes, the oldest are lost.
   uint32_t sent() const { return sentCount_; }
   uint8_t sentByte(uint32_t number) const { return sent_[(sentFirst_ + number) % kSentBytes]; }
-  // True: the oldest are these, and count as seen.
+  // Returns whether the oldest bytes are the expected ones, which then count as checked.
   bool takeSent(std::span<const uint8_t> expected);
 
 private:
   void leave();
 
   io::com::Port& port_;
-  uint64_t progress_ = 0; // of the byte that is being sent, in thousandths of a bit
+  uint64_t progress_ = 0; // of the byte being sent, in thousandths of a bit
   std::vector<uint8_t> sent_;
   uint32_t sentFirst_ = 0, sentCount_ = 0;
 };
@@ -45,7 +44,7 @@ class ComPorts {
 public:
   static constexpr uint32_t kMost = io::com::kMostPorts;
 
-  // Keys COM[1].Active, COM[1].ComSpeed … "" or what is wrong.
+  // Sets the keys COM[1].Active, COM[1].ComSpeed … Returns "", or the error.
   static bool owns(std::string_view key) { return io::com::isPortKey(key); }
   std::string configure(std::string_view key, std::string_view value);
 
@@ -56,7 +55,7 @@ public:
   // Null: no port of this number.
   io::com::Port* find(uint32_t number) { return number < kMost ? &units_[number].port : nullptr; }
   ComLine& line(uint32_t number) { return units_[number].line; }
-  // Events: "" or what is wrong.
+  // Events; they return "", or the error.
   std::string receive(uint32_t number, std::span<const uint8_t> bytes);
   std::string setError(uint32_t number, bool isWrong);
 

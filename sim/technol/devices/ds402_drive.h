@@ -1,5 +1,5 @@
-// A drive by the profile CiA 402: the status word that follows from its control word (TECHNOL manual, l.17819-17868,
-// l.10205-10216; bits of the states by CiA 402). A step is the time in which a drive answers.
+// A drive with the profile CiA 402: derives the status word from its control word (TECHNOL manual, l.17819-17868,
+// l.10205-10216; status bits as in CiA 402). A step is the time in which a drive responds.
 #pragma once
 #include <cstdint>
 
@@ -7,10 +7,10 @@ namespace rung::sim::technol {
 
 // Control words (6040h).
 inline constexpr uint16_t kControlShutdown = 0x06; // VOLT, QSTOP
-inline constexpr uint16_t kControlSwitchOn = 0x07; // and ON
+inline constexpr uint16_t kControlSwitchOn = 0x07; // plus ON
 inline constexpr uint16_t kControlEnable = 0x0F;
 inline constexpr uint16_t kControlFaultReset = 0x80;
-// Status words (6041h) by the bits that make a state.
+// Status words (6041h), by the bits that identify a state.
 inline constexpr uint16_t kStatusMask = 0x6F;
 inline constexpr uint16_t kSwitchOnDisabled = 0x40;
 inline constexpr uint16_t kReadyToSwitchOn = 0x21;
@@ -23,7 +23,7 @@ class Ds402Drive {
 public:
   void powerOn() { *this = {}; }
   void step(uint16_t control);
-  // Error code 603Fh; the drive switches off, until a fault reset (the rise of bit 7). 0: nothing.
+  // Sets error code 603Fh; the drive switches off until a fault reset (rising edge of bit 7). 0: nothing.
   void fault(uint16_t code);
 
   uint16_t status() const { return status_; }
@@ -32,7 +32,7 @@ public:
 private:
   uint16_t status_ = kSwitchOnDisabled;
   uint16_t error_ = 0;
-  uint16_t control_ = 0; // of the step before
+  uint16_t control_ = 0; // in the previous step
 };
 
 } // namespace rung::sim::technol

@@ -1,5 +1,5 @@
-// Requests that the simulated EtherCAT master has taken, in the order in which they were begun. All memory is made
-// with the object.
+// Requests that the simulated EtherCAT master has accepted, in the order in which they were begun. All memory is
+// allocated with the object.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -18,17 +18,17 @@ struct EthercatRequest {
   enum class Kind : uint8_t { Upload, Download, ReadIdn, WriteIdn, Command };
   Kind kind = Kind::Command;
   io::ethercat::Station station;
-  uint32_t index = 0;    // or IDN, or command
-  uint32_t sub = 0;      // or drive
+  uint32_t index = 0;    // index, IDN or command
+  uint32_t sub = 0;      // subindex or drive
   uint32_t elements = 0; // of an IDN
-  uint32_t most = 0;     // bytes that are wanted
-  // At work.
+  uint32_t most = 0;     // number of bytes requested
+  // State.
   uint32_t ticket = 0; // 0: free
   uint32_t ageMs = 0;
   bool isDone = false;
   bool isForgotten = false;
   uint32_t code = 0;
-  uint32_t size = 0; // of the data that are to be written, or were read
+  uint32_t size = 0; // size of the data to write, or of the data read
   std::array<uint8_t, io::ethercat::kMostMailboxBytes> data{};
 };
 
@@ -36,15 +36,15 @@ class EthercatRequests {
 public:
   static constexpr uint32_t kMost = 64;
 
-  // Null: all are in use. The data that do not fit are cut, but `size` is all of them.
+  // Returns null if all requests are in use. Data beyond the room are dropped, but included in `size`.
   EthercatRequest* add(const io::ethercat::Station& station, EthercatRequest::Kind kind, std::span<const uint8_t> data);
   const EthercatRequest* find(uint32_t ticket) const;
-  // Of one that is not done the place is free once it is.
+  // A request that is not finished is freed when it finishes.
   void forget(uint32_t ticket);
   void finish(EthercatRequest& request, uint32_t code);
   void clear();
 
-  // From the oldest one.
+  // Access by age, from the oldest on.
   uint32_t count() const { return count_; }
   EthercatRequest& operator[](uint32_t number) { return slots_[order_[number]]; }
   void dropForgotten();
@@ -56,11 +56,11 @@ private:
   uint32_t lastTicket_ = 0;
 };
 
-// The simulated EtherCAT net (TECHNOL manual, chapter 26): a master with slaves that the configuration describes. It is
-// the io::ethercat::Master of the instructions ECAT_…, serves the request bits flEcat…Req and the process image.
+// The simulated EtherCAT network (TECHNOL manual, chapter 26): a master with the slaves of the configuration. It is the
+// io::ethercat::Master of the instructions ECAT_…, and serves the request bits flEcat…Req and the process image.
 //
-// A mailbox answers 5 ms after it was asked, or after 1 s with kTimedOut where the slave is silent. Without slaves
-// there is no master. Configuring may allocate, all else does not.
+// A mailbox answers after 5 ms, or, if the slave is silent, after 1 s with kTimedOut. Without slaves there is no
+// master. Only the configuration allocates.
 
 class EtherCat final : public io::ethercat::Master {
 public:
@@ -73,17 +73,17 @@ public:
   EtherCat(const EtherCat&) = delete;
   EtherCat& operator=(const EtherCat&) = delete;
 
-  // Keys of the configuration: ethercat.…, EtherCATOPViaPLC, EtherCATDelayOP. "" or what is wrong.
+  // Configuration keys: ethercat.…, EtherCATOPViaPLC, EtherCATDelayOP. Returns "", or the error.
   static bool owns(std::string_view key);
   std::string configure(std::string_view key, std::string_view value);
 
-  // All starts anew, tickets are forgotten. With EtherCATOPViaPLC = 0 the master is in OPERATIONAL after it, or
-  // EtherCATDelayOP later (l.17741-17755, l.17910-17916).
+  // Restarts everything and forgets tickets. With EtherCATOPViaPLC = 0 the master is in OPERATIONAL afterwards, or
+  // after EtherCATDelayOP (l.17741-17755, l.17910-17916).
   void powerOn();
   // One millisecond.
   void tick(io::ethercat::StateBits& bits);
 
-  // Of the instructions (see master.h). Answers are there after a tick.
+  // For the instructions (see master.h). Answers are available after a tick.
   Ticket upload(Station station, uint16_t index, uint8_t subindex, uint32_t most) noexcept override;
   Ticket download(Station station, uint16_t index, uint8_t subindex, std::span<const uint8_t> data) noexcept override;
   Ticket readIdn(Station station, uint8_t drive, uint8_t elements, uint16_t idn, uint32_t most) noexcept override;
@@ -98,13 +98,13 @@ public:
   EthercatImage& image() { return image_; }
   const EthercatImage& image() const { return image_; }
 
-  // Events; "" or what is wrong.
-  std::string setError(uint32_t slave, uint32_t code); // what its mailbox answers from now on; 0: as usual
+  // Events; they return "", or the error.
+  std::string setError(uint32_t slave, uint32_t code); // of its mailbox, from now on; 0: normal answers
   std::string setSilent(uint32_t slave, bool isSilent);
-  std::string fault(uint32_t slave, uint32_t code); // of a CiA 402 drive: 603Fh
+  std::string fault(uint32_t slave, uint32_t code); // of a CiA 402 drive: sets 603Fh
   void setLink(bool isUp) { states_.setLink(isUp); }
 
-  // Quantities. An object by its numbers, whatever its access; nothing or false: there is none.
+  // Quantities. Objects by their numbers, regardless of their access rights; nothing or false: there is no such object.
   std::optional<uint64_t> object(uint32_t slave, uint32_t index, uint32_t sub) const;
   std::optional<uint64_t> idn(uint32_t slave, uint32_t idn, uint32_t drive) const;
   bool setObject(uint32_t slave, uint32_t index, uint32_t sub, uint64_t value);
@@ -136,10 +136,10 @@ private:
   EthercatImage image_{slaves_, states_};
   EthercatRequests requests_;
   io::ethercat::StateRequests stateRequests_{*this};
-  uint32_t commandTicket_ = 0; // whose change of state is under way
+  uint32_t commandTicket_ = 0; // ticket of the change of state in progress
   bool byProgram_ = false;     // EtherCATOPViaPLC
   uint32_t delayMs_ = 0;       // EtherCATDelayOP
-  uint32_t startInMs_ = 0;     // until the master goes to OPERATIONAL by itself; 0: it does not
+  uint32_t startInMs_ = 0;     // until the master enters OPERATIONAL by itself; 0: it does not
 };
 
 } // namespace rung::sim::technol

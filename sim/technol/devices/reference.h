@@ -8,18 +8,18 @@
 
 namespace rung::sim::technol {
 
-// Of a RefMethod: the axis goes to a switch or a mark, with REFPI on (l.6757, l.11798-11887). The others set the zero
-// point without a travel.
+// Whether the method moves the axis to a switch or a mark, with REFPI on (l.6757, l.11798-11887). The other methods set
+// the zero point without motion.
 bool isActualTravel(uint32_t method);
 
 class ReferenceTravel {
 public:
   bool active() const { return phase_ != Phase::None; }
-  // Not for RefMethod 1, which the program does.
+  // Not for RefMethod 1, which the program executes.
   void begin(Axis& axis);
-  // The axis brakes.
+  // Ends the travel; the axis brakes.
   void end(Axis& axis, double acceleration);
-  // A millisecond: before the axis moves, and after; that says whether the travel is done.
+  // One millisecond: `drive` before the axis moves, `look` after it; `look` returns whether the travel is done.
   void drive(Axis& axis, uint32_t index, const AxisInputs& in);
   bool look(Axis& axis);
 
@@ -39,30 +39,31 @@ private:
   double target(const Axis& axis) const;
 
   Phase phase_ = Phase::None;
-  bool fresh_ = false; // the edge of a switch needs a look before it
+  bool fresh_ = false; // the edge of a switch requires a previous reading
   bool negative_ = false, reversed_ = false;
-  bool low_ = false;   // RefSpeedLow from now on
-  bool armed_ = false; // zero pulses count
+  bool low_ = false;   // RefSpeedLow is used from now on
+  bool armed_ = false; // zero pulses are evaluated
   bool switchWas_ = false;
-  double from_ = 0; // of coded distances
+  double from_ = 0; // start of a coded distance
 };
 
-// Reference (man. chapter 15): the operator's orders, HOMING_REQ and HOMING_START_REQ of the program, and the travels.
+// Reference (man. chapter 15): the operator's commands, HOMING_REQ and HOMING_START_REQ of the program, and the
+// travels.
 
-// The operator's orders (l.11767-12030).
+// The operator's commands (l.11767-12030).
 enum class ReferenceKind : uint8_t { Single, Plc, Group, Pseudo, Simulated, Clear };
 
 class Reference {
 public:
   void reset() { *this = Reference(); }
-  // Carried out in the next tick.
+  // Executed in the next tick.
   void order(ReferenceKind kind, AxisMask axes) { setBits(ordered_[static_cast<uint32_t>(kind)], axes); }
-  // The axis is taken from it: it brakes.
+  // Another mover takes the axis: it brakes.
   void drop(Axis& axis, uint32_t index);
-  // A millisecond: before the axes move, and after.
+  // One millisecond: `drive` before the axes move, `look` after it.
   void drive(std::span<Axis> axes, const AxisInputs& in, AxisRequests& requests, Stop stop, Complaints& complaints);
   void look(std::span<Axis> axes, AxisRequests& requests);
-  // REFPI: an axis is on its way to a reference, for any caller.
+  // REFPI: whether an axis is moving to its reference, for any reason.
   bool underWay(std::span<const Axis> axes) const;
 
 private:
@@ -75,7 +76,7 @@ private:
   void stopAll(std::span<Axis> axes, AxisRequests& requests, Stop stop);
 
   std::array<ReferenceTravel, kMaxAxes> travels_ = {};
-  std::array<AxisMask, 6> ordered_ = {}; // by ReferenceKind
+  std::array<AxisMask, 6> ordered_ = {}; // indexed by ReferenceKind
 };
 
 } // namespace rung::sim::technol

@@ -1,5 +1,5 @@
-// Where the cells of the axes lie in a program (inventory of the services, 1.6, 15.1), and their way to the axes of the
-// simulated control and back.
+// The places of the axis cells in a program (inventory of the services, 1.6, 15.1), and their transfer to and from the
+// axes of the simulated control.
 #pragma once
 #include <array>
 #include <vector>
@@ -16,13 +16,13 @@ namespace rung::sim::technol {
 
 class AxisPlaces {
 public:
-  AxisPlaces() = default; // a program that has nothing
+  AxisPlaces() = default; // for a program without these cells
   explicit AxisPlaces(const rung_program& program);
 
-  // Before the ticks of a scan. Of `in.blockMotion` stays what PO_OSxPI still says.
+  // To be called before the ticks of a scan. `in.blockMotion` keeps only axes with PO_OSxPI.
   void read(const core::Memory& memory, AxisInputs& in, AxisRequests& requests) const;
   const io::AxisCells& cells() const { return cells_; }
-  // After them, for axes 1 to `count`.
+  // To be called after the ticks, for axes 1 to `count`.
   void write(const core::Memory& memory, uint32_t count, const AxisRequests& requests, const AxisOutputs& out) const;
   void zeroOutputs(const core::Memory& memory) const;
 
@@ -45,11 +45,11 @@ void answerAxis(Axes& axes, const AxisPlaces& places, io::DeviceCall& call);
 
 class ServoPlaces {
 public:
-  ServoPlaces() = default; // a program that has nothing
+  ServoPlaces() = default; // for a program without these cells
   explicit ServoPlaces(const rung_program& program);
 
   void read(const core::Memory& memory, EthercatServos::Cells& servos) const;
-  // Of drives that are simulated or connected.
+  // Writes the cells of drives that are simulated or connected.
   void write(const core::Memory& memory, const EthercatServos::Cells& servos) const;
 
 private:

@@ -1,7 +1,7 @@
 // The structures INOUTS of the units on CAN, by the names under which the control shares them (man. l.13872,
 // l.14120-14384): InputOutput_CAN2_i, Panel_CAN2_i, Knob_CAN2_i, i from 0, with the elements INOUT_IN[k],
-// INOUT_IN0[bit], INOUT_MODE, ... What is physically there is set by them: inputs, keys, potentiometers, encoders;
-// INOUT_OUT is what is at the terminals of the outputs, all else what the control knows of the unit.
+// INOUT_IN0[bit], INOUT_MODE, ... Writing inputs, keys, potentiometers and encoders sets their physical state;
+// INOUT_OUT is the state of the output terminals; the other elements are the control's data about the unit.
 #pragma once
 #include <optional>
 #include <string>
@@ -14,15 +14,15 @@ namespace rung::sim::technol {
 
 class UnitCell {
 public:
-  struct Element; // of INOUTS
-  // Nothing: a name of something else.
+  struct Element; // an element of INOUTS
+  // Parses a name; nothing for names of other cells.
   static std::optional<UnitCell> named(std::string_view name);
 
-  // "" or why the units that exist have no such cell.
+  // Returns "", or why the existing units have no such cell.
   std::string problem(const CanDevices& can) const;
-  // Of a cell without a problem.
+  // For a cell without a problem.
   NcCell read(const CanDevices& can) const;
-  // "" or what is wrong.
+  // Returns "", or the error.
   std::string write(CanDevices& can, CanInputs& inputs, const NcCell& value) const;
 
 private:
@@ -31,7 +31,7 @@ private:
   uint8_t* wiredByte(CanDevices& can, CanInputs& inputs) const;
 
   uint32_t group_ = 0, board_ = 0;   // from 1
-  const Element* element_ = nullptr; // null: INOUTS has no such element
+  const Element* element_ = nullptr; // null: INOUTS does not have the element
   uint32_t index_ = 0;
   std::optional<uint32_t> bit_;
 };

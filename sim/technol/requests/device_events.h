@@ -1,4 +1,4 @@
-// Keys of events and of expect_sent, as a scenario gives them, and what an event takes.
+// Keys of events and of expect_sent as a scenario gives them, and the keys that an event accepts.
 #pragma once
 #include <optional>
 #include <span>
@@ -12,14 +12,14 @@ namespace rung::sim::technol {
 
 struct EventKey {
   std::string_view name;
-  int64_t least = 0, most = 1; // of a number
+  int64_t least = 0, most = 1; // limits of a number
   bool isText = false;
   bool isRequired = false;
 };
 constexpr EventKey required(EventKey key) { return key.isRequired = true, key; }
 constexpr EventKey textKey(std::string_view name) { return {.name = name, .isText = true}; }
 
-// "" or what is wrong with the first key that is not as `known` has it.
+// Returns "", or the error of the first key that does not match `known`.
 std::string wrongKeys(std::string_view event, std::span<const NcArgument> keys, std::span<const EventKey> known);
 
 class EventKeys {

@@ -1,5 +1,5 @@
-// The cells of modules at which simulated devices work (module_cells.h): process data of EtherCAT slaves, servos with
-// EtherCAT drives, positions and increments of axes.
+// The module cells that simulated devices use (module_cells.h): process data of EtherCAT slaves, servos with EtherCAT
+// drives, positions and increments of axes.
 #pragma once
 #include <array>
 #include <iterator>
@@ -20,28 +20,28 @@
 
 namespace rung::sim::technol {
 
-// What axes 1 to `axisCount` and servos with a drive give at a point, as the bits of its type. Nothing: they do not
-// give it.
+// The value at a point from axes 1 to `axisCount` and servos with a drive, in the point's type. Nothing: they have no
+// value for it.
 std::optional<uint64_t> givenAt(const ModulePoint& point, const AxisOutputs& axes, uint32_t axisCount,
                                 const EthercatServos::Cells& servos);
 
-// Before the ticks of a scan: outputs of the net. A servo is connected whose status word and control word are ends of
-// connections; then its status, its error and its position are what has come there.
+// To be called before the ticks of a scan: takes outputs of the network. A servo is connected if its status word and
+// control word are ends of connections; its status, error and position are then those of the connections.
 void takeOutputs(const ModuleCells& cells, EthercatImage& image, EthercatServos::Cells& servos);
-// After them: inputs of the net, and what axes and servos give.
+// To be called after the ticks: gives inputs of the network and the values of axes and servos.
 void giveInputs(ModuleCells& cells, const EthercatImage& image, const EthercatServos::Cells& servos,
                 const AxisOutputs& axes, uint32_t axisCount);
 
-// Elements of the real-time manager that are cells of the program under another name (kSharedElements).
+// Elements of the real-time manager that are also cells of the program under another name (kSharedElements).
 
 class SharedPoints {
 public:
-  SharedPoints() = default; // a program that has nothing
+  SharedPoints() = default; // for a program without these cells
   explicit SharedPoints(const rung_program& program);
 
-  // Before the devices: what a connection or a scenario has put at an element goes into the program's cell.
+  // To be called before the devices work: copies values set by a connection or a scenario to the program's cells.
   void take(const core::Memory& memory, const ModuleCells& cells) const;
-  // After them: elements are as the program's cells.
+  // To be called after the devices have worked: copies the program's cells to the elements.
   void give(const core::Memory& memory, ModuleCells& cells) const;
 
 private:
@@ -51,16 +51,16 @@ private:
   std::array<std::array<core::Place, kMembers>, std::size(kSharedElements)> places_;
 };
 
-// The cells and the procedure of a program that belong to keyboards (man. ch. 11, l.16936-16961, l.1614-1626).
+// The cells and the procedure of a program for keyboards (man. ch. 11, l.16936-16961, l.1614-1626).
 
 class KeyboardPlaces {
 public:
-  KeyboardPlaces() = default; // a program that has nothing
+  KeyboardPlaces() = default; // for a program without these cells
   explicit KeyboardPlaces(const rung_program& program);
 
   // TL1W to TL4W, TL1K, TL2K, TL1P.
   void write(const core::Memory& memory, const Keyboards& keyboards) const;
-  // _ON_CMD. A program that is stopped takes no part.
+  // Calls _ON_CMD, unless the program is stopped.
   void runCommand(runtime::Instance& instance, int64_t code, bool pressed) const;
 
 private:
@@ -77,12 +77,12 @@ private:
 
 class InputWiring {
 public:
-  // "" or what is wrong; nothing: another key.
+  // Returns "", or the error; nothing for other keys.
   std::optional<std::string> configure(std::string_view key, std::string_view value, Axes& axes);
   void locate(const rung_program& program);
-  // Everything has been as it is for long.
+  // All sources count as unchanged for a long time.
   void powerOn(const core::Memory& memory);
-  // Before MODULE_INPUT, `us` after the last time.
+  // To be called before MODULE_INPUT, `us` after the last call.
   void pass(const core::Memory& memory, const Axes& axes, int64_t us);
 
 private:
@@ -94,12 +94,12 @@ private:
     Bit input, source;
     bool inverted = false;
     int64_t delayUs = 0;
-    bool level = false; // of the source, since sinceUs
+    bool level = false; // level of the source, since sinceUs
     int64_t sinceUs = 0;
   };
   std::string follow(std::string_view key, std::string_view input, std::string_view value);
 
-  std::vector<Bit> switches_; // their places are the axes' handles
+  std::vector<Bit> switches_; // the indices are the axes' handles
   std::vector<Wire> wires_;
   int64_t nowUs_ = 0;
 };

@@ -1,7 +1,7 @@
-// The devices of the simulated TECHNOL control, connected to a program: who answers its requests, and which cells they
-// read and write (inventory of the services, 1). Shared areas, orders of packets and the event CAN are always there,
-// tables where the configuration names them, all else with `nc simulated`; requests to axes that are out of range are
-// always answered.
+// The devices of the simulated TECHNOL control, connected to a program: they answer its requests, and read and write
+// its cells (inventory of the services, 1). Shared areas, packet subscriptions and the event CAN always exist, tables
+// if they are configured, everything else with `nc simulated`; requests to axes that are out of range are always
+// answered.
 #pragma once
 #include <optional>
 #include <span>
@@ -30,18 +30,18 @@ namespace rung::sim::technol {
 
 class SimulatedDevices {
 public:
-  // Process data of the simulated net are found there; handed over at a power-on.
+  // The process data of the simulated network, valid from a power-on.
   const EthercatImage& image() const { return ethercat_.image(); }
-  // Before the first power-on. "" or what is wrong; nothing: a key of something else. `path` is that of a file.
+  // To be called before the first power-on. Returns "", or the error; nothing for other keys. `path`: the value as the
+  // path of a file.
   std::optional<std::string> configure(std::string_view key, std::string_view value, const std::string& path);
-  // What the control's own file of the channel says of devices. "" or what is wrong, with its place.
+  // Configures the devices described in the control's own channel file. Returns "", or the error with its position.
   std::string define(std::span<const host::DeviceDefinition> definitions);
   bool simulated() const { return simulated_; }
 
-  // Memory has been started; MODULE_INIT follows. A cold start reads the tables' files anew.
+  // Memory has been initialized; MODULE_INIT follows. A cold start reads the files of tables again.
   void powerOn(runtime::Instance& instance, nc::PowerOn kind, const ConstantOf& constantOf);
-  // What is wrong with the configuration, and the files of tables and keyboards as they were read last; each may have
-  // several lines.
+  // Errors of the configuration, and of the files of tables and keyboards when last read; each may have several lines.
   std::vector<std::string> problems() const;
   // Another program has taken over from `former`, which still exists.
   void programChanged(runtime::Instance& instance, const rung_program& former);
@@ -49,19 +49,19 @@ public:
   void startProgram();
   // A fault or HALT, after MODULE_HALT.
   void fault(runtime::Instance& instance);
-  // A block of the part program has begun, whose motion PO_OSxPI says.
+  // A block of the part program has begun; PO_OSxPI shows its motion.
   void blockStarted(runtime::Instance& instance);
-  // The hook before MODULE_INPUT: the devices do what they do in one scan.
+  // The hook before MODULE_INPUT: the devices do the work of one scan.
   void beforeInput(runtime::Instance& instance, ModuleCells& cells);
-  // The program does not run; the devices do, up to the time of now.
+  // The program does not run; the devices continue up to the current time.
   void idle(runtime::Instance& instance, ModuleCells& cells);
-  // False: no simulated device answers.
+  // Returns false if no simulated device answers.
   bool respond(runtime::Instance& instance, const core::ServiceRequest& request, core::ServiceReply& reply);
-  // Lines for the log since the last call.
+  // Takes the lines for the log since the last call.
   void takeLog(std::vector<std::string>& log);
 
   std::vector<std::string_view> events() const;
-  // "" or what is wrong; nothing: another event.
+  // Returns "", or the error; nothing for other events.
   std::optional<std::string> event(runtime::Instance& instance, std::string_view name,
                                    std::span<const NcArgument> keys);
   // Quantities without "NC.".
@@ -73,24 +73,24 @@ public:
   std::optional<std::string> writeCell(std::string_view name, const NcCell& value);
   std::string cellProblem(std::string_view name) const;
   bool cellMayCome(std::string_view name) const;
-  // What has left a port, COM[n] or CAN[n], and has not been checked: it is compared where it is as the keys say. "" or
-  // what is wrong.
+  // Checks data that a port, COM[n] or CAN[n], has sent and that have not been checked: they must match the keys.
+  // Returns "", or the error.
   std::string expectSent(std::string_view port, std::span<const NcArgument> keys);
 
-  // The tables, as the control stores them (SimulatedNc::keptSize).
+  // The tables as the control stores them (SimulatedNc::keptSize).
   uint32_t keptSize();
   void copyKept(std::span<uint8_t> image) const noexcept { tables_.copyKept(image); }
   void restoreKept(std::span<const uint8_t> image);
 
 private:
-  // What an event does, and what it takes; its keys have been checked when it acts. "" or what is wrong.
+  // An event: its keys, which are checked before it acts, and its action, which returns "", or the error.
   struct Event {
     std::string_view name;
     std::span<const EventKey> keys;
     std::string (SimulatedDevices::*act)(const EventKeys&);
     bool isScripted = false; // also with `nc scripted`
   };
-  // Nothing: another event.
+  // Nothing for other events.
   std::optional<std::string> oneOf(std::span<const Event> events, std::string_view name,
                                    std::span<const NcArgument> given);
   static std::span<const Event> deviceEvents();
@@ -119,14 +119,14 @@ private:
   std::optional<NcCell> readTable(std::string_view name) const;
   std::optional<NcCell> readModule(std::string_view name) const;
   std::optional<NcCell> readElement(std::string_view identifier) const;
-  // RUNG_NONE: it is not an input of the simulated net.
+  // RUNG_NONE: not an input of the simulated network.
   uint32_t inputOfNet(std::string_view identifier) const;
-  // Nothing: neither axes nor servos give it.
+  // Nothing: neither axes nor servos have a value for it.
   std::optional<ModuleElement> givenElement(std::string_view identifier) const;
-  // Why an element cannot be set, "": devices do not give it.
+  // Why an element cannot be set; "": devices do not set it.
   std::string givenProblem(std::string_view identifier) const;
   std::optional<std::string> writeTable(std::string_view name, const NcCell& value);
-  // Of a place that is not on the display, or of a handwheel that is not there.
+  // For a place outside the display, or a handwheel that does not exist.
   std::string displayProblem(uint32_t wheel) const;
   // Null: no such handwheel.
   const HandwheelDisplay* displayOf(uint32_t wheel) const;
@@ -167,11 +167,11 @@ private:
   Complaints complaints_;
   io::ethercat::StateBits stateBits_;
   EthercatServos::Cells servoCells_;
-  int64_t devicesUs_ = 0; // the time up to which the devices have come
-  int64_t restUs_ = 0;    // of it, in which no tick has been made yet
+  int64_t devicesUs_ = 0; // time up to which the devices have worked
+  int64_t restUs_ = 0;    // part of it that is less than a tick
   std::string tableProblem_, keyProblem_;
   bool tablesLoaded_ = false;
-  bool tablesRestored_ = false; // for the next power-on
+  bool tablesRestored_ = false; // they were restored for the next power-on
 };
 
 } // namespace rung::sim::technol

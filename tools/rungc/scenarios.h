@@ -13,9 +13,9 @@
 
 namespace rung::rungc {
 
-// Expands names: files stay in their order; a folder means the scenarios of its project, or every *.scn below it, sorted;
-// no name means those of the project of the working directory. Nothing, and `status` says why, if a folder has no
-// scenario or a name is that of a program.
+// Expands names: files stay in their order; a folder means the scenarios of its project, or every *.scn below it,
+// sorted; no name means those of the project of the working directory. Nothing, and `status` says why, if a folder has
+// no scenario or a name is that of a program.
 std::optional<std::vector<std::string>> scenarioFiles(const std::vector<std::string>& names, int& status);
 
 // The files whose path contains one of the texts; a text with *, ? or [ is a pattern for the whole path or the file's

@@ -60,7 +60,7 @@ public:
   /// detects.
   void setEncoding(std::string name) { encoding_ = std::move(name); }
   /// Reads a file. Its text is converted to UTF-8 and ends at a DOS end-of-file mark. Fails if it cannot be read or if
-  /// the positions are used up (4 GB of text).
+  /// the sources have more than 256 MB in all.
   Result<FileId> addFile(const std::string& path);
   /// Adds a file with these bytes.
   FileId addBytes(std::string name, std::string bytes);

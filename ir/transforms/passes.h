@@ -17,11 +17,11 @@ namespace rung::ir {
 // Which rungs a pass need not visit again, because it would not change them. A pass of single rungs visits the others,
 // and returns the new state of each:
 //
-//   fold, reuse   A changed rung may give all passes more to do. Reuse itself is settled, unless it moved a store out of
-//                 a loop: a loop that writes nothing hides nothing that was read before it.
+//   fold, reuse   A changed rung may give all passes more to do. Reuse itself is settled, unless it moved a store
+//                 out of a loop: a loop that writes nothing hides nothing that was read before it.
 //   dead          Settled. It removes what is not used, except stores: no operand and no existing value.
-//   transient     It removes stores, from which folding learns nothing. Their operands may be unused now, and loops
-//                 without them may write nothing.
+//   transient     It removes stores, from which folding learns nothing. Their operands may be unused now, and
+//                 loops without them may write nothing.
 //   versions      A rung that gets versions is a new one.
 
 // The state of one rung: a set of passes that would not change it.

@@ -41,8 +41,7 @@ llvm::Function* ChunkEmitter::emit(uint32_t chunk) {
 void ChunkEmitter::beginFunction(const ChunkPlan& plan) {
   bitsAreBytes_ = hasMostlyBytes(plan);
   const Rung& first = plan.routine.rungs[plan.chunk.firstRung];
-  const bool isNamed = numbers_ == nullptr || debug_ != nullptr; // otherwise the cached code may serve at another
-                                                                 // position
+  const bool isNamed = numbers_ == nullptr || debug_ != nullptr; // else the cached code may serve elsewhere
   const std::string name = isNamed ? fmt::format("{}.{}", plan.routine.name, plan.chunk.firstRung) : "chunk";
   auto* signature = llvm::FunctionType::get(builder_.getInt32Ty(),
                                             {builder_.getPtrTy(), builder_.getPtrTy(), builder_.getInt32Ty()}, false);

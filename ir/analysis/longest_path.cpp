@@ -68,8 +68,7 @@ public:
 
 private:
   enum class Mark : uint8_t { New, Open, Done };
-  static constexpr uint32_t kClosed = UINT32_MAX; // value in `order_` of a rung that is finished: its loop, if it is in
-                                                  // one, is known
+  static constexpr uint32_t kClosed = UINT32_MAX; // in `order_`: finished, its loop (if any) is known
 
   uint32_t number(Place place) const { return partition_.rungNumber(place.routine, place.rung); }
   const std::vector<Rung>& rungsOf(RoutineId routine) const { return partition_.module().at(routine).rungs; }
@@ -161,8 +160,7 @@ private:
   std::vector<uint32_t> lowest_; // lowest order that can be reached and is not in a loop found already
   std::vector<uint8_t> leadsToCircle_;
   uint32_t opened_ = 0;
-  std::vector<uint32_t> reached_; // numbers of rungs whose loops are not known yet, in the order in which they were
-                                  // opened
+  std::vector<uint32_t> reached_; // rungs whose loops are not known yet, in opening order
   std::vector<std::vector<uint32_t>> loops_;
   std::vector<Place> stack_;
 };

@@ -11,8 +11,7 @@ namespace rung::ir {
 
 // Where the loops of a run end.
 struct Straight {
-  uint32_t chunk = RUNG_PC_DONE; // from this chunk on, outside of calls, control does not loop; RUNG_PC_DONE: no such
-                                 // chunk
+  uint32_t chunk = RUNG_PC_DONE; // from this chunk on, outside of calls, no loops; RUNG_PC_DONE: no such chunk
   uint32_t weight = 0;           // of the longest path from there or from a later chunk, at most UINT32_MAX
 };
 

@@ -164,8 +164,7 @@ private:
   const Module& module_;
   Rung& rung_;
   uint32_t line_ = 0;
-  std::vector<std::vector<Type>> yieldTypes_; // of open regions: types of the if's yields (after its else), or of the
-                                              // loop's carried values
+  std::vector<std::vector<Type>> yieldTypes_; // of open regions: the if's (after its else) or the loop's carried types
 };
 
 } // namespace rung::ir

@@ -30,8 +30,7 @@ struct FieldInfo {
   std::string_view name;
   FieldKind kind;
   size_t offset;                       // in the struct
-  size_t countOffset = 0;              // offset of the uint32_t in the same struct with the number of an array's
-                                       // elements
+  size_t countOffset = 0;              // of the uint32_t in the same struct with the number of elements
   const StructInfo* element = nullptr; // Structs
 };
 

@@ -67,8 +67,7 @@ private:
   const Module* module_;
   std::vector<Chunk> chunks_;
   std::vector<std::vector<uint32_t>> chunkOfRung_; // by routine and rung: the chunk that contains it
-  std::vector<std::vector<uint32_t>> after_;       // by routine and rung: weight of the lightest path after it to the
-                                                   // end of the chunk
+  std::vector<std::vector<uint32_t>> after_; // by routine and rung: the lightest path after it to the end of the chunk
   std::vector<uint32_t> firstRung_;
   uint32_t rungCount_ = 0;
   std::vector<std::vector<uint32_t>> partEnds_;

@@ -61,17 +61,14 @@ void orderOperations(Module& module, Marks* marks = nullptr, GivenNumbers* given
 void readSourcesOfLatches(Module& module); // reads what a task copies at its beginning from the source of the copy
 
 void inlineRoutines(Module& module);  // inlines a routine with one caller
-void keepCarried(Module& module);     // marks registers as not transient whose value a run, or a part of one, leaves
-                                      // for another
+void keepCarried(Module& module);     // clears `transient` of registers that a run, or a part of one, leaves to another
 void instrumentRungs(Module& module); // measures each rung
 
 // These visit rungs that are not settled.
-void foldConstants(Module& module, Settled& settled);         // constants, algebra, branches with known conditions
-void reuseValues(Module& module, Settled& settled);           // reuses the value of an equal operation, load or store
-                                                              // above
-void removeDeadOps(Module& module, Settled& settled);         // removes unused results and regions without effect
-void removeTransientStores(Module& module, Settled& settled); // removes stores to registers between rungs that no rung
-                                                              // reads
+void foldConstants(Module& module, Settled& settled); // constants, algebra, branches with known conditions
+void reuseValues(Module& module, Settled& settled);   // reuses values of equal operations, loads and stores above
+void removeDeadOps(Module& module, Settled& settled); // removes unused results and regions without effect
+void removeTransientStores(Module& module, Settled& settled); // removes stores to registers that no rung reads
 void versionRanges(Module& module, Settled& settled);         // versions of a rung for likely indices
 
 // A row of the table, with one of two functions: the first may change the set of rungs, the second visits rungs that

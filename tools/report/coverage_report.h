@@ -111,7 +111,6 @@ std::string percentText(const Share& share);
 // What is missing of a rung or a part of it, in words: "never open"; "" if nothing is.
 std::string missingOf(const Condition& condition);
 std::string missingOf(const Output& output);
-std::string missingOf(const Deciding& deciding, std::string_view outcome); // `outcome`: "(PUMP)", what the condition
-                                                                           // decides
+std::string missingOf(const Deciding& deciding, std::string_view outcome); // `outcome`: "(PUMP)"
 
 } // namespace rung::report

@@ -29,8 +29,7 @@ struct RungAccess {
 
 struct Entry {
   runtime::Ref place;
-  std::vector<RungAccess> accesses; // ascending by rung; without indexed accesses of other places that may reach this
-                                    // one
+  std::vector<RungAccess> accesses; // ascending by rung; without indexed accesses of other places that reach it
   bool controlWrites = false;       // whether the control or the machine writes it
   bool controlReads = false;
   // Set by markOdd (odd_names.h).

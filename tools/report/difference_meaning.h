@@ -26,8 +26,7 @@ struct Exit {
 struct DrawnRung {
   const ir::Routine* routine = nullptr; // routine of the first of them
   const ir::Rung* rung = nullptr;       // of those in this routine, the first that reaches the last line
-  uint64_t meaning = 0;                 // equal hashes: the rungs do the same, provided that their exits lead to the
-                                        // same
+  uint64_t meaning = 0;                 // equal: the rungs do the same if their exits lead to the same
   std::vector<Exit> exits;              // equal meanings have equally many exits
 };
 

@@ -16,8 +16,7 @@
 namespace rung::scenario {
 
 struct CompileStep {
-  std::optional<compiler::Compiled> program; // nothing if there is nothing to run: the program has errors, expected or
-                                             // not
+  std::optional<compiler::Compiled> program; // nothing if it has errors, expected or not
   std::vector<Problem> problems;
   std::vector<std::string> files; // the sources and all files that they include
   std::string environment;        // why a file cannot be read

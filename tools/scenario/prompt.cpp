@@ -215,8 +215,7 @@ struct LineEditor::State {
       if (count < 0 && errno == EINTR) continue;
       if (count <= 0) return 0;
       size_t used = std::mbrtowc(character, &byte, 1, &state);
-      if (used == static_cast<size_t>(-1)) { // the bytes so far are invalid UTF-8 and dropped; this one may begin a
-                                             // character
+      if (used == static_cast<size_t>(-1)) { // invalid UTF-8 so far, dropped; this byte may begin a character
         state = {};
         used = std::mbrtowc(character, &byte, 1, &state);
       }

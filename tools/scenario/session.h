@@ -28,8 +28,7 @@ class Session;
 
 // A program that replaces the running one, or runs beside it as a shadow.
 struct NextProgram {
-  std::vector<runtime::Engine*> engines; // one for each engine of the session, in the same order; they must outlive the
-                                         // session
+  std::vector<runtime::Engine*> engines; // one for each of the session's, in their order; must outlive the session
   const ir::Uses* uses = nullptr;        // must outlive the session; null: the program was not compiled in this process
   compiler::GetCompiled compiled;        // its result must outlive the session
 };

@@ -52,9 +52,7 @@ private:
       const uint32_t from = nodeOf(block, region);
       for (const uint32_t next : code_.blocks[block].next) {
         const uint32_t to = nodeOf(next, region);
-        if (to == UINT32_MAX || (region != kNoLoop && next == entry))
-          continue; // out of the region, or to the next
-                    // iteration
+        if (to == UINT32_MAX || (region != kNoLoop && next == entry)) continue; // outside, or the next iteration
         if (to == from && to >= code_.blocks.size()) continue;
         edges[from].push_back(to);
         ++entries[to];

@@ -32,8 +32,7 @@ public:
 private:
   // An open region.
   struct Frame {
-    CellRanges held; // if: cells before it, from its else on those after its first region; loop: cells that no
-                     // iteration changes
+    CellRanges held; // if: before it, from its else on after its first region; loop: what no iteration changes
     std::vector<Range> yields; // if: of the first region
     bool decided = false;      // if: one region never runs
   };

@@ -46,7 +46,7 @@ struct TaskBound {
   uint32_t parts = 1;    // of a partitioned task, the values below are those of the part with the largest value
   uint32_t budget = 0;
   ir::LongestPath way;
-  uint64_t steps = 0;                   // of the longest path, or of the budget, which ends loops, if that is less
+  uint64_t steps = 0;                   // of the longest path, at most the budget; with loops the budget
   std::optional<uint64_t> instructions; // of the program's code, without host functions
   std::string noInstructions;           // why `instructions` is missing
   std::vector<HostCalls> calls;         // for each function the most calls of a run

@@ -522,9 +522,7 @@ std::string commonStart(const std::vector<std::string>& words) {
   std::string common = words.empty() ? std::string() : words[0];
   for (const std::string& word : words) {
     size_t same = static_cast<size_t>(std::ranges::mismatch(common, word).in1 - common.begin());
-    while (same > 0 && same < word.size() && text::isUtf8Continuation(word[same]))
-      --same; // not in the middle of a
-              // character
+    while (same > 0 && same < word.size() && text::isUtf8Continuation(word[same])) --same; // not within a character
     common.resize(same);
   }
   return common;

@@ -85,8 +85,7 @@ const StatementInfo* findStatement(std::string_view word);
 struct ParsedLine {
   std::optional<Statement> statement; // nothing for an empty line, or if there is a problem
   std::string problem;
-  bool shapesStart = false; // the line determines, or may be meant to determine, how the program is compiled and
-                            // started
+  bool shapesStart = false; // it determines, or may be meant to, how the program is compiled and started
 };
 
 ParsedLine parseLine(std::string_view line);

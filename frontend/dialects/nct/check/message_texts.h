@@ -22,7 +22,7 @@ TextKind checkText(const Word& text, Diagnostics& diagnostics);
 // number prints its number in any case.
 void checkMessages(const TypedModule& module, const TextKinds& texts, Diagnostics& diagnostics);
 
-// Warns of texts that no box of the program shows, and of boxes whose number has no text although others have one.
+// Warns of texts that no box of the program shows, and of boxes with a constant number that has no text.
 void checkMessageNumbers(std::initializer_list<const TypedModule*> modules, const TextKinds& texts,
                          Diagnostics& diagnostics);
 

@@ -6,7 +6,7 @@
 namespace rung::frontend::nct {
 
 // Moves a file's part of a module that begins with a subroutine and precedes the part with END to the end: such a file
-// contains subroutines only, and files may be named in any order.
+// contains subroutines, and files may be named in any order.
 void arrangeParts(TypedModule& module);
 
 void checkStructure(TypedModule& module, const SourceManager& sources, Diagnostics& diagnostics);

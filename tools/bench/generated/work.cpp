@@ -114,7 +114,7 @@ private:
 
   uint32_t below(uint32_t n) { return static_cast<uint32_t>(random_() % n); }
   Contact input() { return {below(kInputs), false}; }
-  Contact any() { return {below(work_.bits()), false}; } // an input, or an earlier coil
+  Contact any() { return {below(work_.bits()), false}; }                 // an input, or an earlier coil
   Contact contact() { return {below(work_.bits() + 1), below(3) == 0}; } // or the rung's own coil
   Contact firstHalf() { return {below(kInputs / 2), false}; }
   Contact secondHalf() { return {kInputs / 2 + below(kInputs / 2), false}; }

@@ -27,7 +27,7 @@ struct Shown {
   std::string file, code, message;
 };
 
-// What an image needs after its compilation has been freed.
+// The parts of a compilation that an image needs after it has been freed.
 struct Program {
   SourceManager sources;
   std::optional<Compiled> compiled;
@@ -182,7 +182,7 @@ const char* rung_compilation_report(const rung_compilation* compilation) {
 
 namespace {
 
-// The runtime's sentence, for a caller of this library.
+// Reports an error of the runtime to the caller of this library.
 int32_t failAsRuntime(int32_t status) { return fail(static_cast<rung_status>(status), "%s", rung_error_text()); }
 
 int32_t serve(rung_image* image, const std::shared_ptr<const Program>& program, EngineKind kind,

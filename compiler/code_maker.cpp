@@ -1,4 +1,4 @@
-// Code of an image made anew (see code_maker.h).
+// Recompiles the code of an image (see code_maker.h).
 #include "compiler/code_maker.h"
 
 #include <memory>
@@ -50,7 +50,7 @@ int32_t serveImage(rung_image* image, GetCompiled compiled, EngineKind kind, con
                                   .user = maker.get()};
   const int32_t status = rung_image_serve(image, &described);
   if (status != RUNG_OK) return status;
-  [[maybe_unused]] const Maker* images = maker.release(); // it is the image's now
+  [[maybe_unused]] const Maker* images = maker.release(); // owned by the image now
   return RUNG_OK;
 }
 

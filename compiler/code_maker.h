@@ -1,4 +1,4 @@
-// What an image of the runtime's library is served by: code of it made anew, from what it was compiled from.
+// Serves an image of the runtime library: recompiles it from what it was compiled from.
 #pragma once
 #include <functional>
 
@@ -8,10 +8,10 @@
 
 namespace rung::compiler {
 
-// What a program was compiled from; a failure says why that is not known.
+// Returns what a program was compiled from; the error says why that is not known.
 using GetCompiled = std::function<Result<const Compiled*>()>;
 
-// See rung_image_serve. `compiled` is asked when code is made, by any thread; what it gives outlives that.
+// See rung_image_serve. `compiled` is called when code is made, on any thread; its result must outlive that.
 int32_t serveImage(rung_image* image, GetCompiled compiled, EngineKind kind, const EngineOptions& options);
 
 } // namespace rung::compiler

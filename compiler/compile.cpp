@@ -39,13 +39,13 @@ void addClaim(ir::Module& module, const LayoutClaim& claim) {
                             .value = claim.hash});
 }
 
-// `word` is in the text of the file.
+// `word` must be part of the file's text.
 void reportUnknownDialect(const SourceManager& sources, FileId file, std::string_view word, Diagnostics& diagnostics) {
   const auto begin = static_cast<size_t>(word.data() - sources.text(file).data());
   const SourceRange range = sources.range(file, begin, begin + word.size());
   DiagBuilder report = diagnostics.report(diag::UnknownDialect, range);
   report << word;
-  // nct2xx, GSK25iMc
+  // such as nct2xx, GSK25iMc
   for (const frontend::Dialect* dialect : frontend::allDialects())
     if (text::startsWithIgnoringCase(word, dialect->name)) return static_cast<void>(report.meant(range, dialect->name));
   suggest(report, range, text::likeliest(word, frontend::allDialects(), &frontend::Dialect::name));

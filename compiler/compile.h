@@ -1,4 +1,5 @@
-// From files to a laid-out program: read, choose the dialect, compile to the IR, verify, optimise, lay out.
+// From files to a laid-out program: reads them, selects the dialect, compiles to the IR, verifies, optimises and lays
+// out.
 #pragma once
 #include <functional>
 #include <memory>
@@ -18,7 +19,7 @@
 
 namespace rung::compiler {
 
-// The layout of a host's struct that a program is compiled for (RUNG_LAYOUT_SYMBOL): it becomes a hidden constant.
+// The layout of a host's struct for which a program is compiled (RUNG_LAYOUT_SYMBOL): it becomes a hidden constant.
 struct LayoutClaim {
   std::string symbol;
   std::string text;
@@ -26,52 +27,52 @@ struct LayoutClaim {
 };
 
 struct CompileRequest {
-  std::string dialect;              // empty: the files say it
-  std::string name;                 // of the project; empty: the program is called after its first file
+  std::string dialect;              // empty: determined from the files
+  std::string name;                 // of the project; empty: the program has the name of its first file
   frontend::CompileOptions options; // configuration and strictness
   bool instrument = false;          // count and time rungs
-  bool marks = false;               // note contacts and coils; the module stays as it was built
-  bool compare = false; // note what is needed to compare the module, as it was built, with that of another version
+  bool marks = false;               // mark contacts and coils; the module stays as built
+  bool compare = false;             // keep what a comparison of the module as built with that of another version needs
   bool optimise = true;
-  bool keepBuilt = false;  // for those who make its code again (recompiler.h)
-  bool keepSource = false; // keep what the front end knows of the text
+  bool keepBuilt = false;  // for recompilation (recompiler.h)
+  bool keepSource = false; // keep the front end's analysis of the text
   ir::LayoutOptions layout;
   std::vector<LayoutClaim> layouts;
-  const ir::BranchCounts* branches = nullptr;        // of earlier runs, for the order of the code; null: none
-  std::function<void(std::string_view stage)> ended; // called at the end of each stage, to measure it; may be empty
+  const ir::BranchCounts* branches = nullptr;        // of earlier runs, for the layout of the code; null: none
+  std::function<void(std::string_view stage)> ended; // called at the end of each stage, for measurements; may be empty
 };
 
 struct Compiled {
   std::vector<FileId> files;
-  std::string project; // the name of the request
+  std::string project; // name of the request
   const frontend::Dialect* dialect = nullptr;
-  std::unique_ptr<ir::Module> built;     // as the dialect made it, where that was asked for
-  std::unique_ptr<ir::Module> shape;     // what the layout follows from (ir::runPasses)
+  std::unique_ptr<ir::Module> built;     // as the dialect made it, if requested
+  std::unique_ptr<ir::Module> shape;     // the module that determines the layout (ir::runPasses)
   std::unique_ptr<ir::Module> module;    // final, optimised
-  ir::PassOptions passes;                // between the two
-  ir::BranchWeightsResult branchWeights; // of the branches of the request
-  std::unique_ptr<ir::Layout> layout;    // of the shape, over the module
-  ir::Marks marks;                       // where they were asked for
+  ir::PassOptions passes;                // the passes from `shape` to `module`
+  ir::BranchWeightsResult branchWeights; // from the branch counts of the request
+  std::unique_ptr<ir::Layout> layout;    // of `shape`, applied to `module`
+  ir::Marks marks;                       // if requested
   ir::GivenNumbers given;                // of `built`, for a comparison
   frontend::CompileOptions options;      // of the request
-  std::unique_ptr<ir::Uses> uses;        // of the module as the dialect made it
-  // Where it was asked for: for its analysis alone, as it has been built; the sources must outlive it.
+  std::unique_ptr<ir::Uses> uses;        // of the module as built
+  // If requested, of the program as built, for its analysis only; the sources must outlive it.
   std::unique_ptr<const frontend::CheckedProgram> source;
-  uint64_t codeHash = 0; // ir::hashOf the module
-  size_t warnings = 0;   // that were reported on the way
+  uint64_t codeHash = 0; // ir::hashOf(module)
+  size_t warnings = 0;   // number of warnings reported
 };
 
-// Adds the files of a command line; "-" reads standard input. `config`: of the dialect; its `encoding` is that of files
-// that do not name theirs. Fails on the first that cannot be read.
+// Adds the files of a command line; "-" reads standard input. `config`: of the dialect; its `encoding` applies to files
+// that do not declare theirs. Fails on the first file that cannot be read.
 Result<std::vector<FileId>> addFiles(SourceManager& sources, const std::vector<std::string>& names,
                                      const std::map<std::string, std::string>& config);
 
-// The dialect of a program: the one named, or with an empty name that of the first file. Null when nothing says it, or
-// one of the files is a compiled program; that is reported.
+// The dialect of a program: the named one, or with an empty name that of the first file. Null if it cannot be
+// determined, or if one of the files is a compiled program; that is reported.
 const frontend::Dialect* chooseDialect(const SourceManager& sources, std::span<const FileId> files,
                                        const std::string& name, Diagnostics& diagnostics);
 
-// Nothing when the program has errors; they are in `diagnostics`.
+// Nothing if the program has errors; they are in `diagnostics`.
 std::optional<Compiled> compile(SourceManager& sources, std::span<const FileId> files, const CompileRequest& request,
                                 Diagnostics& diagnostics);
 

@@ -15,7 +15,7 @@ namespace {
 
 std::string_view firstPart(std::string_view key) { return key.substr(0, key.find('.')); }
 
-// Of families the first part has to be like: `timr.1` is meant as tmr.N.
+// For keys of families, the first part must be similar: `timr.1` suggests tmr.N.
 std::string suggestion(const frontend::Dialect& dialect, std::string_view key) {
   const auto isFamily = [](const nc::ConfigKey& row) { return row.key.find('<') != std::string_view::npos; };
   auto single = dialect.configKeys | std::views::filter(std::not_fn(isFamily));
@@ -37,7 +37,7 @@ bool contains(const SourceManager& sources, const std::string& text) {
   return false;
 }
 
-// By an identifier, or by that before an attribute: `Feed` of `PLC.Input.Feed[2].Default`.
+// By an identifier, or by the one before an attribute: `Feed` of `PLC.Input.Feed[2].Default`.
 bool isNamed(const SourceManager& sources, std::string_view key) {
   const std::string name = text::upper(key);
   if (contains(sources, name)) return true;

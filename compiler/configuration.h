@@ -1,5 +1,5 @@
-// Checks a configuration before anything is made of it, whatever the command is: unknown keys, and values that the
-// table of keys does not take. What only a simulated control knows of a value, tools/scenario/configuration.h checks.
+// Checks a configuration before it is used, for any command: unknown keys, and values that the table of keys does not
+// accept. tools/scenario/configuration.h checks what only a simulated control knows about values.
 #pragma once
 #include <optional>
 #include <span>
@@ -16,7 +16,7 @@ namespace rung::compiler {
 
 struct ConfigProblem {
   std::string key;
-  std::string text; // for people
+  std::string text; // message for the user
   bool isUnknown = false;
 };
 
@@ -25,11 +25,11 @@ using ConfigPairs = std::span<const std::pair<std::string, std::string>>;
 std::optional<ConfigProblem> checkSetting(const frontend::Dialect& dialect, const std::string& key,
                                           std::string_view value);
 
-// Keys by which only the program itself could ask (a parameter of a TECHNOL machine), and that no source names.
+// Keys that only the program itself could read (a parameter of a TECHNOL machine), and that no source mentions.
 std::vector<ConfigProblem> checkNamesOfProgram(const frontend::Dialect& dialect, const SourceManager& sources,
                                                ConfigPairs config);
 
-// Reports it at its place; the range may be invalid.
+// Reports the problem at its position; the range may be invalid.
 void report(const ConfigProblem& problem, const frontend::Dialect& dialect, SourceRange range,
             Diagnostics& diagnostics);
 

@@ -1,11 +1,11 @@
-// How the compiler is called through a library of C.
+// Calls the compiler from functions of a C library.
 #pragma once
 #include "ir/support/check.h"
 #include "rtlib/api/error.h"
 
 namespace rung::compiler {
 
-// No exception leaves the library, and what the compiler finds wrong with itself does not end the process.
+// Catches all exceptions, so that none leaves the library and internal errors of the compiler do not end the process.
 template <class Body>
 int32_t contained(Body body) noexcept {
   return api::contained([&] {

@@ -1,5 +1,5 @@
-// Packing and unpacking (see embedded_ir.h). The section holds the size of the text (8 bytes, low byte first), and the
-// text compressed by zlib: a line with the passes, then the module as its front end built it.
+// Packs and unpacks the IR (see embedded_ir.h). The section contains the size of the text (8 bytes, low byte first),
+// and the text compressed by zlib: a line with the passes, then the module as its front end built it.
 #include "compiler/embedded_ir.h"
 
 #include <array>
@@ -22,7 +22,7 @@ std::string headOf(const ir::PassOptions& passes) {
   return fmt::format("rung-ir 1 optimise {} instrument {}\n", passes.optimise ? 1 : 0, passes.instrument ? 1 : 0);
 }
 
-// False: it is not a head of this version.
+// False: the text does not begin with a head of this version.
 bool takeHead(std::string_view& text, ir::PassOptions& passes) {
   for (const bool optimise : {false, true}) {
     for (const bool instrument : {false, true}) {

@@ -1,4 +1,4 @@
-// The IR of a program as its shared object carries it, so that its code can be made again without the sources.
+// The IR of a program, embedded in its shared object so that its code can be recompiled without the sources.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -10,10 +10,10 @@
 
 namespace rung::compiler {
 
-// The shared object with the IR in a section that is not loaded. `compiled` has been kept as it was built.
+// The shared object with the IR in a section that is not loaded. `compiled` must have its module as built (keepBuilt).
 Result<std::string> withIr(std::string_view object, const Compiled& compiled);
 
-// Which program it is.
+// The identity of a program.
 struct Hashes {
   uint64_t code = 0;
   uint64_t layout = 0;
@@ -21,8 +21,8 @@ struct Hashes {
 };
 inline Hashes hashesOf(const rung_program& program) { return {program.code_hash, program.layout_hash}; }
 
-// What the object's program was compiled from, but for sources and diagnostics. Fails where the object carries no IR,
-// or where this compiler makes another program of it than `program`. The object may be any bytes.
+// What the object's program was compiled from, without sources and diagnostics. Fails if the object has no IR, or if
+// this compiler makes a program other than `program` of it. The object may be any bytes.
 Result<Compiled> irOf(std::string_view object, const Hashes& program);
 
 } // namespace rung::compiler

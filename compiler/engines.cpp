@@ -30,7 +30,7 @@ constexpr std::array<NamedEngine, 5> kEngines = {{{EngineKind::Interp, "interp"}
                                                   {EngineKind::Jit, "jit"},
                                                   {EngineKind::Tiered, "tiered"}}};
 
-// A loaded shared object under the name of the engine that made it; the file is needed no longer once it is loaded.
+// A loaded shared object under the name of the engine that made it; the file is not needed once it is loaded.
 class BuiltEngine final : public runtime::Engine {
 public:
   BuiltEngine(std::unique_ptr<runtime::SoEngine> loaded, std::string_view name)
@@ -74,7 +74,7 @@ Result<std::string> cppObject(const Compiled& compiled, const EngineOptions& opt
   return sealedObject(options.cacheFolder, identity, [&] { return codegen::buildCppSharedObject(text, build); });
 }
 
-// The back end's version, its options, and all that it sees of the program.
+// The back end's version, its options, and everything that it reads of the program.
 std::string llvmIdentity(const Compiled& compiled, const EngineOptions& options) {
   std::string identity =
       fmt::format("llvm {} {} {} {}\n", codegen::codeVersion(), RUNG_ABI_VERSION, options.optimise, options.debugger);

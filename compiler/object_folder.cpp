@@ -1,4 +1,4 @@
-// Shared objects kept in a folder (see object_folder.h).
+// Shared objects stored in a folder (see object_folder.h).
 #include "compiler/object_folder.h"
 
 #include <fmt/format.h>
@@ -31,7 +31,7 @@ Result<std::string> sealedObject(const std::string& folder, std::string_view ide
   const Result<std::string> built = build();
   if (!built.ok()) return built.failure();
   std::string file = runtime::sealed(built.value());
-  if (kept) kept->write(name, file); // a full disk: the next one builds it again
+  if (kept) kept->write(name, file); // a failure such as a full disk is ignored: the next run builds it again
   return file;
 }
 

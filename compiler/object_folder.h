@@ -1,6 +1,6 @@
-// Shared objects that engines were made of before, in the folder of the JIT's cache: compiling one takes far longer
-// than what a scenario does with it. A file is named by the digest of all that makes it and has a seal: a damaged one
-// counts as absent, as does one that others could have written (rtlib/load/trust.h).
+// Shared objects of engines made earlier, in the folder of the JIT's cache: compiling one takes far longer than running
+// a scenario with it. A file is named by the digest of everything that determines it and has a seal: a damaged file
+// counts as absent, as does one that other users could have written (rtlib/load/trust.h).
 #pragma once
 #include <functional>
 #include <string>
@@ -10,8 +10,8 @@
 
 namespace rung::compiler {
 
-// The sealed object of `identity`, which is all that decides its bytes; built where the folder does not have it, and
-// then kept there. An empty folder: built. A folder that cannot be used is as good as none: it only takes longer.
+// The sealed object with this `identity`, which determines its bytes; if the folder does not contain it, it is built
+// and stored there. With an empty folder name, or a folder that cannot be used, it is built every time.
 Result<std::string> sealedObject(const std::string& folder, std::string_view identity,
                                  const std::function<Result<std::string>()>& build);
 

@@ -51,7 +51,7 @@ private:
   using Key = text::TomlKey<Reader, Project>;
   static const Key kKeys[9];
 
-  // ---- places and reports
+  // ---- positions and reports
 
   SourcePos sourcePos(text::Position at) const {
     const uint32_t line = std::clamp<uint32_t>(at.line, 1, sources_.lineCount(fileId_));
@@ -61,7 +61,7 @@ private:
       offset += decodeUtf8(text, offset).length;
     return sources_.position(fileId_, static_cast<size_t>(text.data() - sources_.text(fileId_).data()) + offset);
   }
-  // Of a text over several lines the first one is meant.
+  // For a text over several lines, the first line.
   SourceRange rangeOf(text::Position at, text::Position end) const {
     const SourcePos begin = sourcePos(at);
     return {begin, end.line == at.line ? std::max(begin, sourcePos(end)) : begin};
@@ -107,7 +107,7 @@ private:
 
   // ---- keys
 
-  // Calls act(text, node) for every text of a list. False: it is not a list.
+  // Calls act(text, node) for every text of a list. False: the node is not a list of texts.
   template <class Act>
   bool forTexts(std::string_view key, const toml::node& node, std::string_view expected, Act act) {
     const toml::array* list = node.as_array();
@@ -180,7 +180,7 @@ private:
     });
   }
 
-  // They may be missing: rungc bind makes them of the project.
+  // The files may be missing: rungc bind makes them from the project.
   bool takeBindings(const toml::node& node, Project& project) {
     return forTexts("bindings", node, kBindings,
                     [&](const std::string& name, const toml::node&) { project.bindings.push_back(inFolder(name)); });
@@ -197,7 +197,7 @@ private:
     return true;
   }
 
-  // `tmr.1 = 480` and `[config.tmr]` with `1 = 480` are the key tmr.1.
+  // `tmr.1 = 480` and `[config.tmr]` with `1 = 480` both set the key tmr.1.
   void readSettings(const toml::table& table, const std::string& prefix) {
     for (const auto& [name, node] : table) {
       const std::string key = prefix + std::string(name.str());
@@ -217,7 +217,7 @@ private:
     project_.config.push_back({key, std::move(value), sources_.offsetOf(range.begin), sources_.offsetOf(range.end)});
   }
 
-  // Files of the configuration lie beside the project file; their readers look in other folders.
+  // File names in the configuration are relative to the project file; their readers look in other folders.
   void placeFile(Setting& setting) {
     const frontend::Dialect* dialect = frontend::findDialect(project_.dialect);
     const nc::ConfigKey* row = dialect == nullptr ? nullptr : nc::findConfigKey(dialect->configKeys, setting.key);
@@ -270,20 +270,20 @@ std::map<std::string, SourceRange> placesOf(const Project& project, const std::m
   if (!file.ok()) return places;
   for (const Setting& setting : project.config) {
     const auto used = config.find(setting.key);
-    if (used != config.end() && used->second == setting.value) // else another value goes before it
+    if (used != config.end() && used->second == setting.value) // otherwise another value takes precedence
       places[setting.key] = sources.range(file.value(), setting.begin, setting.end);
   }
   return places;
 }
 
-// Where a project file lies, and whether a file is part of its project.
+// Finds a project file, and whether a file is part of its project.
 
 namespace fs = std::filesystem;
 
 std::optional<std::string> findUpwards(const std::string& folder) {
   std::error_code error;
   fs::path above = fs::absolute(folder.empty() ? "." : folder, error).lexically_normal();
-  if (!above.has_filename()) above = above.parent_path(); // written with a slash at its end
+  if (!above.has_filename()) above = above.parent_path(); // `above` was written with a slash at its end
   for (fs::path shown = folder;; shown /= "..", above = above.parent_path()) {
     const fs::path file = (shown / kFileName).lexically_normal();
     if (fs::is_regular_file(file, error)) return file.string();
@@ -301,13 +301,13 @@ bool hasFile(const Project& project, const std::string& file) {
                      [&](const std::string& own) { return fs::equivalent(own, file, error); });
 }
 
-// Files by patterns.
+// Finds files by patterns.
 
 namespace {
 
 namespace fs = std::filesystem;
 
-// What matches `part` and the parts after it in this folder.
+// Adds the files in this folder that match `part` and the parts after it.
 void match(const fs::path& folder, fs::path::const_iterator part, fs::path::const_iterator end,
            std::vector<std::string>& found) {
   std::error_code error;
@@ -339,7 +339,7 @@ namespace {
 
 struct Kind {
   std::string_view name;
-  std::string_view use; // of the file {0}
+  std::string_view use; // how to use the file {0}
 };
 
 // In the order of FileKind.

@@ -1,4 +1,4 @@
-// The project file rung.toml: what a program consists of and how it is configured (docs/project-file.md).
+// The project file rung.toml: the files of a program and its configuration (docs/project-file.md).
 #pragma once
 #include <map>
 #include <optional>
@@ -13,7 +13,7 @@ namespace rung::compiler {
 
 inline constexpr std::string_view kFileName = "rung.toml";
 
-// A key of the dialect's configuration. The value lies between these bytes of the project file.
+// A key of the dialect's configuration, with the range of the value's bytes in the project file.
 struct Setting {
   std::string key;
   std::string value;
@@ -21,45 +21,46 @@ struct Setting {
   size_t end = 0;
 };
 
-// All paths can be opened from the working directory.
+// All paths are relative to the working directory.
 struct Project {
   std::string file;   // the project file itself
-  std::string folder; // that it lies in, "" for the working directory
-  std::string name;   // of what is made from it; the folder's where the file gives none
+  std::string folder; // folder of the project file, "" for the working directory
+  std::string name;   // of its products; the folder's name if the file gives none
   std::string dialect;
   std::vector<std::string> files; // in order, the first is the main file
   std::vector<std::string> includePaths;
   std::vector<Setting> config;        // in the order of the file; `nc` is one of them
-  std::vector<std::string> bindings;  // files of rungc bind, for whose layouts the program is built
-  std::vector<std::string> scenarios; // every file that a pattern matches, in the order of the patterns, each once
+  std::vector<std::string> bindings;  // files of rungc bind with the layouts for which the program is built
+  std::vector<std::string> scenarios; // every file that matches a pattern, in the order of the patterns, each once
 };
 
-// Reports every mistake of the file, and the files that are missing. Nothing when there are errors.
+// Reports every mistake in the file and every missing file. Nothing if there are errors.
 std::optional<Project> load(SourceManager& sources, const std::string& file, Diagnostics& diagnostics);
 
-// The project file was read into another SourceManager; the places of its values in this one, where `config` has them.
+// For a project file that was read into another SourceManager: the positions in this one of the values that `config`
+// has from it.
 std::map<std::string, SourceRange> placesOf(const Project& project, const std::map<std::string, std::string>& config,
                                             SourceManager& sources);
 
 // The project file of this folder or of the nearest one above it that has one; "" is the working directory.
 std::optional<std::string> findUpwards(const std::string& folder);
 
-// The file that is made of a project where no other is named: NAME.so beside the project file.
+// The default product of a project: NAME.so beside the project file.
 std::string productOf(const Project& project, std::string_view ending);
 
-// Whether the project names this file, however the path is written.
+// Whether the file belongs to the project, however its path is written.
 bool hasFile(const Project& project, const std::string& file);
 
 // The files that match a pattern: *, ? and […] in each part of the path, as in a shell. Sorted.
 std::vector<std::string> matchPattern(const std::string& folder, std::string_view pattern);
 bool isPattern(std::string_view text);
 
-// What a file is by its name, for commands that were given one of another kind.
+// The kind of a file by its name, for commands that were given a file of another kind.
 
 enum class FileKind { Other, Program, Compiled, Scenario, Map, Binding, Project };
 
 FileKind kindOfFile(const std::string& path);
-// "" or, where the name says that the file is of another kind, that and which command takes it.
+// "" or, if the name is that of another kind of file, a message that says so and which command takes it.
 std::string otherKind(const std::string& path, FileKind wanted);
 
 } // namespace rung::compiler

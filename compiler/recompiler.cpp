@@ -1,4 +1,4 @@
-// Chunks with forced cells.
+// Recompiles chunks with forced cells.
 #include "compiler/recompiler.h"
 
 #include <algorithm>
@@ -48,7 +48,7 @@ public:
     return changed_->compile(program.layout, 0, chunks, take, nullptr);
   }
 
-  // The other chunks: as the program has them, or will have them.
+  // Takes all other chunks from the program, which has them or will have them.
   void keep(const rung_chunk_fn* functions) {
     for (size_t chunk = 0; chunk < functions_.size(); ++chunk)
       if (!isChanged_[chunk]) functions_[chunk] = functions[chunk];

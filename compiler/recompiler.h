@@ -1,4 +1,4 @@
-// Other code for a program that is compiled already: its chunks with cells that are held at values.
+// Recompiles chunks of a program with cells that are forced to values.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -12,7 +12,7 @@
 
 namespace rung::compiler {
 
-// Code for all chunks of a program: its own, but for those that would write forced bits.
+// Code for all chunks of a program: its own, except for chunks that would write forced bits.
 class ForcedCode {
 public:
   virtual ~ForcedCode() = default;
@@ -22,22 +22,22 @@ protected:
   core::Code code_;
 };
 
-// `compiled` has been kept as it was built. `running` is the program whose code is replaced, and `engine` what its
-// chunks find in their context; both outlive the result. `forced`: in the order of space and byte, each once.
+// `compiled` must have its module as built (keepBuilt). `running` is the program whose code is replaced, and `engine`
+// the context of its chunks; both must outlive the result. `forced`: ordered by space and byte, each once.
 Result<std::unique_ptr<ForcedCode>> makeForcedCode(const Compiled& compiled, EngineKind kind,
                                                    const EngineOptions& options, const rung_program& running,
                                                    void* engine, std::span<const rung_forced_byte> forced);
 
-// A program with cells that are held at values, from its IR.
+// The IR of a program with forced cells.
 
-// The program's memory and chunks, with other rungs.
+// The program with its memory and chunks, but changed rungs.
 struct ForcedProgram {
-  // `source` has been kept as it was built. `forced`: in the order of space and byte, each once.
+  // `source` must have its module as built (keepBuilt). `forced`: ordered by space and byte, each once.
   ForcedProgram(const Compiled& source, std::span<const rung_forced_byte> forced);
-  ForcedProgram(const ForcedProgram&) = delete; // the layout is of this module
+  ForcedProgram(const ForcedProgram&) = delete; // the layout refers to the member `module`
   ForcedProgram& operator=(const ForcedProgram&) = delete;
 
-  // Those whose rungs are not those of `other`.
+  // The chunks whose rungs differ from those of `other`.
   std::vector<uint32_t> changedChunks(const ir::Module& other) const;
 
   ir::Module module;

@@ -49,7 +49,7 @@ std::string_view placementText(Placement placement) {
   return "";
 }
 
-// The kinds of the rows' operands, each once, in the order of their definitions.
+// The kinds of operands of the rows, each once, in the order of their definitions.
 std::vector<const OperandKindInfo*> operandKindsOf(const Dialect& dialect) {
   std::vector<const OperandKindInfo*> kinds;
   for (const InstructionInfo* row : dialect.instructions)
@@ -59,7 +59,7 @@ std::vector<const OperandKindInfo*> operandKindsOf(const Dialect& dialect) {
   return kinds;
 }
 
-// How it joins with others.
+// How the element connects with others.
 std::string shapeText(const InstructionInfo& row) {
   std::string text;
   const auto add = [&](std::string_view sentence) { text += (text.empty() ? "" : " ") + std::string(sentence); };
@@ -71,7 +71,7 @@ std::string shapeText(const InstructionInfo& row) {
   return text;
 }
 
-// The further pins of a drawn example, each in a line of its own, where the box is.
+// The further pins of a drawn example, a line for each, at the column of the box.
 std::string pinLines(const InstructionInfo& row) {
   const size_t box = row.example.find('{');
   if (!row.example.starts_with("|--") || box == std::string_view::npos) return {};
@@ -126,7 +126,7 @@ void addConfigKeys(ReferencePage& page, const Dialect& dialect) {
     page.row(fmt::format("`{}`", nc::shownKey(row)), nc::takesOf(row), row.otherwise, readerOf(row), row.doc);
 }
 
-// As GitHub makes it of a heading.
+// The anchor that GitHub makes for a heading.
 std::string anchorOf(std::string_view heading) {
   std::string anchor;
   for (const char c : text::lower(heading)) {
@@ -140,7 +140,7 @@ std::string linkTo(std::string_view heading, std::string_view shown) {
   return fmt::format("[{}](#{})", shown, anchorOf(heading));
 }
 
-// With a table of contents before the first section: the sections, and of their parts those called `NAME: …`.
+// Inserts a table of contents before the first section: the sections, and their subsections with headings `NAME: …`.
 std::string withContents(ReferencePage& page) {
   std::string contents = "## Contents\n";
   std::string_view between;
@@ -225,7 +225,7 @@ std::string operationReference() {
 
 namespace {
 
-// A message as it is for no place: its arguments {0}, {1} … are left open.
+// A message without a position: its arguments {0}, {1} … become ellipses.
 std::string openMessage(std::string_view message) {
   std::string text;
   for (size_t i = 0; i < message.size(); ++i) {
@@ -240,14 +240,14 @@ std::string shownDiagnostic(const DiagInfo& info) {
   return fmt::format("{} ({})\n  {}\n\n{}\n", info.code, severityOf(info), openMessage(info.message), info.explanation);
 }
 
-// A fault by its text, or by the part before its colon or its module: `halt-status 13`, `watchdog`.
+// Whether a fault has this text, or this part before its colon or its module: `halt-status 13`, `watchdog`.
 bool isFault(const nc::Fault& fault, const std::string& word) {
   std::string text = text::lower(fault.text);
-  text.resize(text.find_last_not_of(' ') + 1); // the module follows
+  text.resize(text.find_last_not_of(' ') + 1); // followed by the module
   return text == word || (text.starts_with(word) && (text[word.size()] == ':' || word.starts_with(text)));
 }
 
-// What an entry's units add up to, one empty line between two.
+// Joins the paragraphs of an entry, with one empty line between two.
 class Collected {
 public:
   void add(std::string_view unit) {
@@ -259,7 +259,7 @@ private:
   std::string text_;
 };
 
-// By its name, or as a user writes it: tmr.1 is a tmr.N. The rows that take any key explain nothing.
+// By its name, or as a user writes it: tmr.1 is a tmr.N. Rows that accept any key are not considered.
 const nc::ConfigKey* configKey(const Dialect& dialect, std::string_view word) {
   for (const nc::ConfigKey& row : dialect.configKeys)
     if (text::equalsIgnoringCase(nc::shownKey(row), word)) return &row;
@@ -359,8 +359,8 @@ std::string explainTopics() {
 
 namespace {
 
-// The end of a sentence is a full stop before a capital letter, outside of brackets and quotations: neither that of
-// `param.N` nor that of "e.g. 100".
+// A sentence ends at a full stop before a capital letter, outside of brackets and quotations: neither at that of
+// `param.N` nor at that of "e.g. 100".
 std::string firstSentence(std::string_view text) {
   int depth = 0;
   for (size_t i = 0; i + 2 < text.size(); ++i) {
@@ -416,7 +416,7 @@ bool isNumbers(std::string_view clause) {
 
 bool isProposal(std::string_view clause) { return clause.starts_with('P') && isNumbers(clause.substr(1)); }
 
-// Parts between commas and semicolons, without those that name a line; 3022 in "l.363, 3022" is one, too.
+// Parts between commas and semicolons, without those that refer to a line; 3022 in "l.363, 3022" does so, too.
 std::string otherParts(std::string_view parts) {
   std::string kept;
   bool dropped = false;
@@ -433,7 +433,7 @@ std::string otherParts(std::string_view parts) {
   return kept;
 }
 
-// Of a line from "Manual: 5.19, l.1921." on: "Manual: 5.19."
+// Reduces "Manual: 5.19, l.1921." at the beginning of the text to "Manual: 5.19."
 std::string chapterOnly(std::string_view text) {
   const size_t end = std::min(text.find(". "), text.size() - 1);
   const std::string chapter = otherParts(text.substr(kManual.size(), end - kManual.size()));
@@ -442,7 +442,7 @@ std::string chapterOnly(std::string_view text) {
          std::string(rest);
 }
 
-// The brackets that begin at `open` end here.
+// Ends the brackets that begin at `open`.
 void closeBracket(size_t open, std::string& out) {
   const std::string inner = out.substr(open + 1);
   const std::string kept = otherParts(inner);

@@ -1,4 +1,4 @@
-// Which code a program begins with, and the thread that compiles the rest (see tiered.h).
+// Chooses the first code of a program, and compiles the rest on a thread (see tiered.h).
 #include "compiler/tiered.h"
 
 #include <algorithm>
@@ -68,7 +68,7 @@ Result<std::unique_ptr<TieredEngine>> TieredEngine::make(const Compiled& compile
   return engine;
 }
 
-// Whether the interpreter does.
+// Whether the interpreter keeps the period.
 bool TieredEngine::keepsPeriod() {
   bound_ = runtime::measureBound({.program = program_, .engine = this});
   return !interpreter_.allocates() && !bound_.loops && bound_.fits();
@@ -116,7 +116,7 @@ void TieredEngine::work() {
   ended_ = true;
 }
 
-// Beside the program: LLVM takes some milliseconds until it is ready.
+// Runs beside the program, because LLVM takes some milliseconds until it is ready.
 Result<void> TieredEngine::makeCode() {
   Result<std::unique_ptr<codegen::JitCode>> code = codeOf(options_.code.level);
   if (!code.ok()) return code.failure();

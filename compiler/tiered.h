@@ -1,10 +1,10 @@
 // A program that runs at once and gets faster while it runs: first in the interpreter, then as machine code, chunk by
-// chunk as that is compiled. Whichever code a chunk has does the same, so it is exchanged at any moment; it costs a
-// running program nothing.
+// chunk as it is compiled. Either code of a chunk does the same, so it can be exchanged at any moment, at no cost to
+// the running program.
 //
-// Where the interpreter may need more than the period of the schedule, because the program is long or may go in loops,
-// or memory from the heap, the program begins with machine code that is compiled fast, and the creation of the engine
-// waits for it. On a virtual clock, where no time passes meanwhile, it begins in the interpreter in any case.
+// If the interpreter might exceed the period of the schedule, because the program is long or may loop, or might
+// allocate memory, the program begins with machine code that is compiled fast, and the creation of the engine waits for
+// it. On a virtual clock, where no time passes meanwhile, it always begins in the interpreter.
 #pragma once
 #include <atomic>
 #include <memory>
@@ -22,15 +22,15 @@
 
 namespace rung::compiler {
 
-// The functions of a program's chunks, and tables that have the same ones but for some of their own.
+// The functions of a program's chunks, and other tables that follow it except for some chunks.
 class TierTables {
 public:
   TierTables(size_t chunks, rung_chunk_fn first) : functions_(chunks, first) {}
 
   const rung_chunk_fn* functions() const { return functions_.data(); }
-  // Any thread, while chunks run.
+  // May be called on any thread, while chunks run.
   void set(uint32_t chunk, rung_chunk_fn function);
-  // From now on `table` has the functions of all chunks but those of which `own` says yes. Both stay where they are
+  // From now on `table` has the same functions, except for chunks with own[chunk]. Both arguments must stay in place
   // until `unfollow`.
   void follow(std::span<rung_chunk_fn> table, const std::vector<bool>& own);
   void unfollow(std::span<rung_chunk_fn> table);
@@ -45,39 +45,40 @@ private:
   std::vector<Follower> followers_;
 };
 
-// What the first code of a program has to keep up with.
+// The deadline for the first code of a program.
 enum class Pace : uint8_t {
-  Period, // of the schedule
-  Any,    // nothing: the clock is virtual
+  Period, // the period of the schedule
+  Any,    // none: the clock is virtual
 };
 
-// A sentence on JitReport::cacheTrouble; "" when there is none.
+// A sentence about JitReport::cacheTrouble; "" if that is empty.
 std::string cacheTroubleText(const std::string& trouble);
 
 class TieredEngine final : public runtime::Engine {
 public:
-  // The layout of `compiled` outlives the engine. Of the options the level is that of the code in the end; it is
+  // The layout of `compiled` must outlive the engine. The level in `options` is that of the final code, which is
   // compiled on all cores.
   static Result<std::unique_ptr<TieredEngine>> make(const Compiled& compiled, const codegen::JitOptions& options,
                                                     ir::Counting counting, Pace pace = Pace::Period);
-  // Compilation ends early, but for code that a cache keeps.
+  // Ends compilation early, except for code that is to be cached.
   ~TieredEngine() override;
 
   const rung_program& program() const override { return program_; }
   std::string_view name() const override { return "tiered"; }
   void* context() override { return this; }
-  // The code of a chunk that is interpreted.
+  // The function of a chunk that is interpreted.
   static uint32_t interpret(uint8_t* mem, rung_ctx* ctx, uint32_t chunk);
 
   const std::shared_ptr<TierTables>& tables() const { return tables_; }
-  // What the interpreter may need, as it was measured; nothing where the pace is any.
+  // The measured bound of the interpreter; empty with Pace::Any.
   const runtime::ScanBound& bound() const { return bound_; }
   bool beganInterpreted() const { return fast_ == nullptr; }
-  // Chunks that have the code they are to have in the end. Any thread.
+  // Number of chunks that have their final code. May be called on any thread.
   uint32_t finishedChunks() const { return finished_.load(); }
-  // Waits until all have, or cannot have it; then why not, or what is wrong with the cache, or "".
+  // Waits until all chunks have their final code, or cannot have it. Returns why not, or what is wrong with the cache,
+  // or "".
   std::string finish();
-  // The same as far as it is known; only what a cache keeps is waited for.
+  // Like finish(), but waits only for code that is to be cached.
   std::string problem();
 
 private:
@@ -96,12 +97,12 @@ private:
   std::shared_ptr<TierTables> tables_;
   rung_program program_;
   runtime::ScanBound bound_;
-  std::unique_ptr<codegen::JitCode> fast_; // where the program began with it
-  std::unique_ptr<codegen::JitCode> code_; // in the end; the thread's as long as it runs
+  std::unique_ptr<codegen::JitCode> fast_; // if the program began with machine code
+  std::unique_ptr<codegen::JitCode> code_; // the final code; used by thread_ alone as long as that runs
   std::atomic<uint32_t> finished_{0};
   std::atomic<bool> stop_{false};
-  std::string problem_;            // once it has
-  std::atomic<bool> ended_{false}; // compilation
+  std::string problem_;            // valid once ended_ is true
+  std::atomic<bool> ended_{false}; // whether compilation has ended
   std::thread thread_;
 };
 

@@ -52,7 +52,7 @@ std::string toJson(const HostLayout& layout) {
                     {"bytes", layout.bytes},
                     {"records", std::move(records)},
                     {"constants", std::move(constants)}};
-  // A header may have any bytes in its names.
+  // Names in a header may contain any bytes.
   return all.dump(-1, ' ', false, json::error_handler_t::replace) + "\n";
 }
 

@@ -1,4 +1,4 @@
-// A layout as JSON, by which the program that reads headers gives it to rungc.
+// A layout as JSON, in which the program that reads headers passes it to rungc.
 #pragma once
 #include <string>
 #include <string_view>
@@ -9,7 +9,7 @@
 namespace rung::codegen {
 
 std::string toJson(const HostLayout& layout);
-// Fails where the text is not one that toJson of this version has made.
+// Fails if the text was not made by toJson of this version.
 Result<HostLayout> layoutOf(std::string_view json);
 
 } // namespace rung::codegen

@@ -1,4 +1,4 @@
-// A struct through libTooling (see read_header.h).
+// Reads a struct through libTooling (see read_header.h).
 #include "codegen/clang/read_header.h"
 
 #include <algorithm>
@@ -26,13 +26,13 @@ namespace {
 
 using namespace clang;
 
-// A struct that was found by its name.
+// A struct found by its name.
 struct Named {
   const RecordDecl* record = nullptr;
   const NamedDecl* name = nullptr; // its tag or a typedef
 };
 
-// Structs with a name in the whole translation unit; of a tag and a typedef of the same name, the typedef.
+// Named structs of the whole translation unit; of a tag and a typedef of the same name, the typedef.
 class Names {
 public:
   explicit Names(const DeclContext& all) { collect(all); }
@@ -62,7 +62,7 @@ private:
   std::map<std::string, Named> structs_;
 };
 
-// From the declarations of a record to its members.
+// Converts the declarations of a record to its members.
 class LayoutReader {
 public:
   LayoutReader(ASTContext& context, HostLayout& layout)
@@ -87,7 +87,7 @@ private:
     if (const auto* derived = dyn_cast<CXXRecordDecl>(&record))
       for (const CXXBaseSpecifier& base : derived->bases()) {
         const CXXRecordDecl* of = base.getType()->getAsCXXRecordDecl();
-        if (base.isVirtual()) continue; // where it lies depends on the object
+        if (base.isVirtual()) continue; // its offset depends on the object
         addMembers(*of, begin + 8 * static_cast<uint64_t>(places.getBaseClassOffset(of).getQuantity()), members);
       }
     for (const FieldDecl* field : record.fields())
@@ -166,7 +166,7 @@ private:
 
   ASTContext& context_;
   HostLayout& layout_;
-  PrintingPolicy policy_; // of types
+  PrintingPolicy policy_; // for printing types
   std::map<const RecordDecl*, uint32_t> numbers_;
   std::map<const EnumDecl*, std::vector<uint32_t>> constants_;
 };
@@ -242,7 +242,7 @@ private:
 
 std::unique_ptr<tooling::CompilationDatabase> flagsOf(const HeaderRequest& request, std::string& problem) {
   if (request.buildFolder.empty()) return std::make_unique<tooling::FixedCompilationDatabase>(".", request.flags);
-  std::string error; // of each kind of database, over several lines
+  std::string error; // messages of all kinds of databases, over several lines
   auto database = tooling::CompilationDatabase::loadFromDirectory(request.buildFolder, error);
   if (!database)
     problem = "there is no compile_commands.json in " + request.buildFolder +
@@ -250,8 +250,8 @@ std::unique_ptr<tooling::CompilationDatabase> flagsOf(const HeaderRequest& reque
   return database;
 }
 
-// The headers that belong to clang (stddef.h) lie with its library, not with this program. Warnings of a host's header
-// are its own compiler's to give.
+// The headers that belong to clang (stddef.h) are with its library, not with this program. Warnings about a host's
+// header are left to its own compiler.
 tooling::ArgumentsAdjuster ourFlags() {
   return tooling::getInsertArgumentAdjuster({"-resource-dir=" RUNG_CLANG_HEADERS, "-w"},
                                             tooling::ArgumentInsertPosition::END);

@@ -31,11 +31,11 @@ void appendWords(std::string_view text, std::vector<std::string>& words) {
   for (std::string word; in >> word;) words.push_back(word);
 }
 
-// Vectors would be of coils of neighbouring rungs, and cost more to put together than their stores do.
+// Vectors would combine coils of neighbouring rungs, and cost more to assemble than their stores do.
 constexpr std::string_view kFlags = "-x c++ -std=c++20 -fPIC -shared -fvisibility=hidden -fno-exceptions -fno-rtti "
                                     "-ffp-contract=off -fno-math-errno -fno-strict-aliasing -fno-tree-slp-vectorize -w";
 
-// The driver with its own flags, and those of the build.
+// The driver with its flags, followed by those of the build.
 std::vector<std::string> driverWords(const CppBuildOptions& options) {
   std::vector<std::string> words;
   appendWords(options.compiler, words);
@@ -46,7 +46,7 @@ std::vector<std::string> driverWords(const CppBuildOptions& options) {
   return words;
 }
 
-// A compiler by its file, as a new version has another size or time.
+// Identifies a compiler by its file: a new version has another size or time.
 std::string compilerFacts(std::string_view name) {
   const std::string path = findProgram(name).value_or(std::string(name));
   std::error_code none;

@@ -53,7 +53,7 @@ void writeRungComment(const Routine& routine, uint32_t index, std::string& out) 
 void writeChunk(const Layout& layout, uint32_t number, const PlaceNames& names, const CppOptions& options,
                 std::string& out) {
   const ChunkPlan plan = planOf(layout, number);
-  // Its own lines belong to no source.
+  // Generated lines belong to no source.
   put(out, "\n#line 1 \"rung_chunk\"\nstatic uint32_t chunk_{}(uint8_t *{}block, rung_ctx *ctx, uint32_t) {{\n", number,
       plan.hostReads ? "" : "__restrict ");
   if (options.debugInfo) out += "RUNG_SHOW_MEMORY\n";

@@ -1,5 +1,5 @@
-// C++ back end: a module as one readable C++ file for g++ or clang++, without std and without globals but constant
-// tables. Above each rung are its comment and its source text, #line gives debuggers the PLC source, comments name
+// C++ back end: a module as one readable C++ file for g++ or clang++, without std and without globals except constant
+// tables. Each rung is preceded by its comment and its source text, #line gives debuggers the PLC source, comments name
 // the symbols.
 #pragma once
 #include <string>
@@ -12,8 +12,8 @@
 namespace rung::codegen {
 
 struct CppOptions {
-  // For a compiler that is asked for debug information: memory has the program's names, and is up to date where a line
-  // begins.
+  // For compilation with debug information: memory has the program's names, and is up to date at the beginning of each
+  // line.
   bool debugInfo = false;
 };
 
@@ -21,19 +21,20 @@ struct CppOptions {
 std::string emitCpp(const ir::Layout& layout, uint64_t codeHash, const CppOptions& options);
 
 struct CppBuildOptions {
-  // A driver, with flags of its own after it if need be: clang++-19, g++, aarch64-linux-gnu-g++ …
+  // A compiler driver, with flags after it if needed: clang++-19, g++, aarch64-linux-gnu-g++ …
   std::string compiler = "c++";
   std::string optimisation = "-O2";
   bool debugInfo = true;
 };
 
-// All that decides the bytes of buildCppSharedObject: the text with its headers, the options, and which compiler it is.
+// Everything that determines the bytes that buildCppSharedObject makes: the text with its headers, the options, and the
+// compiler's identity.
 std::string cppBuildIdentity(std::string_view text, const CppBuildOptions& options);
 
-// Compiles the text to the bytes of a shared object. Fails with what the compiler said.
+// Compiles the text to the bytes of a shared object. The error is the compiler's output.
 Result<std::string> buildCppSharedObject(std::string_view text, const CppBuildOptions& options);
 
-// The headers of rtlib/abi that the text includes, by their names there: "rung/gen.hpp". The build makes this function.
+// The headers of rtlib/abi that the text includes, by the names it uses: "rung/gen.hpp". The build makes this function.
 std::span<const text::EmbeddedFile> abiHeaders();
 
 } // namespace rung::codegen

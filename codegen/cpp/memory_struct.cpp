@@ -1,4 +1,4 @@
-// Writes members in the order of their places (see memory_struct.h). Where some overlap they become a union of structs.
+// Writes members in the order of their places (see memory_struct.h). Overlapping ones become a union of structs.
 #include "codegen/cpp/memory_struct.h"
 
 #include <algorithm>
@@ -50,14 +50,14 @@ public:
       at = writeGroup(std::span(members).subspan(first, end - first), at);
       first = end;
     }
-    // clang describes a struct only where its size matters.
+    // clang describes a struct only if its size is used.
     put(out_, "}};\nstatic_assert(sizeof(rung_memory) == {});\n\n", std::max(1u, bytesOf(members)));
   }
 
 private:
   using Lane = std::vector<const MemoryMember*>;
 
-  // Members that share bytes, directly or through others, are one group.
+  // Members that share bytes, directly or through others, form a group.
   static size_t groupEnd(const std::vector<MemoryMember>& members, size_t first) {
     uint64_t end = wholeBytes(members[first].endBit());
     size_t next = first + 1;
@@ -66,7 +66,7 @@ private:
     return next;
   }
 
-  // Without overlaps in a lane.
+  // Lanes of members that do not overlap.
   static std::vector<Lane> lanesOf(std::span<const MemoryMember> group) {
     std::vector<Lane> lanes;
     for (const MemoryMember& member : group) {
@@ -77,7 +77,7 @@ private:
     return lanes;
   }
 
-  // Begins at bit `at`; gives the bit after the group.
+  // Begins at bit `at`; returns the bit after the group.
   uint64_t writeGroup(std::span<const MemoryMember> group, uint64_t at) {
     const std::vector<Lane> lanes = lanesOf(group);
     if (lanes.size() == 1) return writeLane(lanes.front(), at);
@@ -111,13 +111,13 @@ private:
     if (to - from <= kMostUnnamed) return unnamed(to - from);
     const uint64_t first = wholeBytes(from);
     unnamed(first - from);
-    // No name of a program is mapped to one with '$'.
+    // No name of a program is mapped to a name with '$'.
     put(out_, "char $gap_{}[{}];\n", gaps_++, (to - first) / 8);
     unnamed(to % 8);
   }
 
   std::string& out_;
-  uint32_t gaps_ = 0; // members of structs without a name share one set of names
+  uint32_t gaps_ = 0; // members of unnamed structs share one set of names
 };
 
 } // namespace

@@ -1,4 +1,4 @@
-// The struct that shows a debugger the memory block by names (ir/shape/memory_members.h), as C++ text.
+// C++ text of the struct through which a debugger shows the memory block by names (ir/shape/memory_members.h).
 #pragma once
 #include <string>
 
@@ -6,7 +6,7 @@
 
 namespace rung::codegen {
 
-// `struct rung_memory`. It needs no header, so that the names meet no macros.
+// Writes `struct rung_memory`. It includes no header, so its names do not conflict with macros.
 void writeMemoryStruct(const ir::MemoryLayout& layout, std::string& out);
 
 } // namespace rung::codegen

@@ -1,4 +1,4 @@
-// Operations as C++ text (see rung_writer.h).
+// Writes operations as C++ text (see rung_writer.h).
 #include "codegen/cpp/rung_writer.h"
 
 #include <algorithm>
@@ -22,8 +22,7 @@ uint64_t placeKey(uint32_t space, int64_t bitOffset, bool bit) {
   return (static_cast<uint64_t>(space) << 40) | (static_cast<uint64_t>(bitOffset) << 1) | (bit ? 1u : 0u);
 }
 
-// The type of a place of the memory block, of which is known that its offset is a multiple of `align`: m16, or m16u
-// where it may have any address.
+// The type of a place in the memory block whose offset is a multiple of `align`: m16, or m16u if it may be unaligned.
 std::string memoryType(Type type, uint32_t align) {
   const uint32_t bits = bitWidth(type);
   RUNG_CHECK(bits >= 8, "a bit has no place of its own");
@@ -31,7 +30,7 @@ std::string memoryType(Type type, uint32_t align) {
   return fmt::format("m{}{}{}", type == Type::F64 ? "f" : "", bits, aligned ? "" : "u");
 }
 
-// Text that may be in a line comment: no line end, and no backslash at the end that would continue it.
+// Text for a line comment: without line ends, and without a backslash at the end, which would continue it.
 std::string commentText(std::string_view text) {
   std::string out(text);
   for (char& c : out)
@@ -108,8 +107,8 @@ void RungWriter::write(const Rung& rung, uint32_t number, std::string_view file)
   endLine();
 }
 
-// The vectoriser and the scheduler, too, take the square of a basic block's length. The jump costs no instruction, but
-// a compiler cannot know that, and begins a block at its label.
+// The vectoriser and the scheduler also take time in proportion to the square of a basic block's length. This jump
+// costs no instruction, but a compiler cannot know that, and begins a block at its label.
 void RungWriter::endBlock(size_t stretch) {
   const std::string label = fmt::format("{}_stretch_{}", rungLabel(number_), stretch);
   statement(fmt::format("asm goto(\"\" : : : : {0}); {0}:;", label));
@@ -169,13 +168,13 @@ void RungWriter::storeAt(const Op& op) {
               placeComment(op));
 }
 
-// A value operation as a call of its function in sem.hpp, but for those that C++ has an operator for.
+// A value operation as a call of its function in sem.hpp, or as an operator of C++ if there is one.
 std::string RungWriter::valueOf(const Op& op) {
   const auto infix = [&](std::string_view sign) { return fmt::format("{} {} {}", a(op, 0), sign, a(op, 1)); };
   const auto cast = [&](const std::string& text) { return fmt::format("static_cast<{}>({})", cppType(op.type), text); };
   const bool bit = op.type == Type::Bit;
   switch (op.code) {
-  // Of bits too: && and || would ask for jumps, which compilers then keep as conditional moves.
+  // For bits, too: && and || would ask for jumps, which compilers then keep as conditional moves.
   case OpCode::And: return bit ? infix("&") : cast(infix("&"));
   case OpCode::Or: return bit ? infix("|") : cast(infix("|"));
   case OpCode::Xor: return bit ? infix("!=") : cast(infix("^"));
@@ -203,7 +202,7 @@ std::string RungWriter::callOf(const Op& op) {
   return fmt::format("{}({})", function, args);
 }
 
-// The expression of an operation that has a value and no region.
+// The expression of an operation with a value and without a region.
 std::string RungWriter::pure(const Op& op) {
   if (isEvaluable(opInfo(op.code))) return valueOf(op);
   const uint32_t unit = opInfo(op.code).attr == Attr::Window ? module_.spaces[op.ref].unitBytes : 0;
@@ -315,7 +314,7 @@ void RungWriter::openLoop(const Op& op) {
 
 void RungWriter::closeLoop(const Op& op, size_t index) {
   const Op& begin = rung_->ops[regions_[index].begin];
-  // All next values are read before the first is carried on.
+  // All next values are read before the first one is assigned.
   for (uint32_t i = 0; i < op.argCount; ++i)
     statement(fmt::format("const {} n{} = {};", cppType(typeOf(*rung_, arg(*rung_, op, static_cast<int>(i)))), i,
                           a(op, static_cast<int>(i))));
@@ -357,21 +356,21 @@ std::string RungWriter::way(const Destination& to) const {
   return leaving(to.chunk == RUNG_NONE ? std::string("RUNG_RETURN;") : fmt::format("return {}u;", to.chunk));
 }
 
-// Out of the chunk.
+// A statement that leaves the chunk.
 std::string RungWriter::leaving(const std::string& how) const {
   return extraWeight_ ? fmt::format("{{ ctx->extra_weight = extra; {} }}", how) : how;
 }
 
 void RungWriter::writeExit(const Exit& exit) {
   const std::string when = exit.cond.valid() ? fmt::format("if ({}) ", v(exit.cond)) : "";
-  const bool falls = exit.otherwise.inside(); // to the rung below, which is the next text
+  const bool falls = exit.otherwise.inside(); // to the rung below, which follows in the text
   if (exit.kind == TransferKind::Next && falls) return;
   beginLine(rung_->transferLine != 0 ? rung_->transferLine : rung_->begin.line, true);
   switch (exit.kind) {
   case TransferKind::Next: statement(way(exit.otherwise)); break;
   case TransferKind::Goto: statement(when + way(exit.taken)); break;
   case TransferKind::Call:
-    // A call at the end of a routine needs no return address of its own: the callee returns to the caller.
+    // A call at the end of a routine needs no return address: the callee returns to the caller.
     statement(exit.otherwise.chunk == RUNG_NONE
                   ? when + way(exit.taken)
                   : when + leaving(fmt::format("RUNG_CALL({}u, {}u)", exit.otherwise.chunk, exit.taken.chunk)));

@@ -1,4 +1,4 @@
-// Writes the operations of one rung as C++ statements, one an operation.
+// Writes the operations of a rung as C++ statements, one per operation.
 #pragma once
 #include <string>
 #include <string_view>
@@ -11,11 +11,11 @@
 
 namespace rung::codegen {
 
-// Names of places, for comments: the first symbol that lies exactly there.
+// Names of places for comments: the first symbol of exactly that place.
 class PlaceNames {
 public:
   explicit PlaceNames(const ir::Module& module);
-  // Empty when no symbol lies there. `bitOffset` counts from the beginning of the space.
+  // Empty if there is no such symbol. `bitOffset` counts from the beginning of the space.
   std::string_view at(uint32_t space, int64_t bitOffset, bool bit) const;
 
 private:
@@ -24,13 +24,13 @@ private:
 
 class RungWriter {
 public:
-  // `extraWeight`: the chunk adds up its extra weight in a variable `extra`.
+  // `extraWeight`: the chunk accumulates its extra weight in a variable `extra`.
   RungWriter(const ir::MemoryLayout& layout, const PlaceNames& names, bool extraWeight, std::string& out)
       : layout_(layout), module_(layout.module()), names_(names), extraWeight_(extraWeight), out_(out) {}
 
   // `number` is the rung's number over all routines, `file` its source's name.
   void write(const ir::Rung& rung, uint32_t number, std::string_view file);
-  // How control leaves the rung that was written last.
+  // Writes how control leaves the last rung.
   void writeExit(const ir::Exit& exit);
 
 private:
@@ -69,12 +69,12 @@ private:
   uint32_t line_ = 0; // of the open RUNG_LINE
   bool open_ = false;
   size_t indent_ = 0;
-  std::vector<ir::Region> regions_; // by operation of the rung in hand
-  std::vector<bool> throughMemory_; // by value, of the rung in hand; empty: none
+  std::vector<ir::Region> regions_; // by operation of the current rung
+  std::vector<bool> throughMemory_; // by value of the current rung; empty: none
 };
 
 std::string_view cppType(ir::Type type);
-// The label of a rung of the routine.
+// The label of a rung, by its number in the routine.
 std::string rungLabel(uint32_t rung);
 
 } // namespace rung::codegen

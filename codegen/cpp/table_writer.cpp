@@ -1,4 +1,4 @@
-// Tables as C++ text (see table_writer.h).
+// Writes tables as C++ text (see table_writer.h).
 #include "codegen/cpp/table_writer.h"
 
 #include <cstring>
@@ -17,7 +17,7 @@ class TableWriter {
 public:
   TableWriter(std::string_view chunkTable, std::string& out) : chunkTable_(chunkTable), out_(out) {}
 
-  // The initialiser of one struct; arrays it points to are written before it.
+  // The initialiser of one struct; arrays to which it points are written before it.
   std::string structText(const StructInfo& info, const std::byte* base) {
     std::string text = "{";
     for (const FieldInfo& field : info.fields) {
@@ -88,7 +88,7 @@ std::string cppString(std::string_view text) {
   std::string out = "\"";
   for (char c : text) {
     const unsigned char byte = static_cast<unsigned char>(c);
-    // Three octal digits end by themselves, so that a digit may follow; `?` is escaped against trigraphs.
+    // Three octal digits are complete, so a digit may follow; `?` is escaped against trigraphs.
     if (c == '"' || c == '\\' || c == '?')
       put(out, "\\{}", c);
     else if (byte < 32 || byte > 126)

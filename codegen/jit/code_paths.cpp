@@ -1,4 +1,4 @@
-// The longest path: loops become nodes, the innermost first, and what is left has no loops (see code_paths.h).
+// The longest path: loops become nodes, the innermost first, and the rest has no loops (see code_paths.h).
 #include "codegen/jit/code_paths.h"
 
 #include <algorithm>
@@ -23,7 +23,7 @@ public:
     }
   }
 
-  // False: the code is irregular.
+  // False: the control flow is irregular.
   bool run(uint64_t& longest) {
     for (uint32_t loop = static_cast<uint32_t>(code_.loops.size()); loop-- > 0;) {
       uint64_t round = 0;
@@ -34,7 +34,7 @@ public:
   }
 
 private:
-  // Of a block in a region: itself, or the loop in the region that it is in; UINT32_MAX where it is outside.
+  // The node of a block in a region: itself, or the loop in the region that contains it; UINT32_MAX if it is outside.
   uint32_t nodeOf(uint32_t block, uint32_t region) const {
     uint32_t node = block;
     for (uint32_t loop = code_.blocks[block].loop; loop != region; loop = code_.loops[loop].parent) {
@@ -44,15 +44,15 @@ private:
     return node;
   }
 
-  // From a block of a region: a loop, or the whole function.
+  // The longest path from a block of a region, which is a loop or the whole function.
   bool longestIn(uint32_t region, uint32_t entry, uint64_t& longest) {
     std::map<uint32_t, std::vector<uint32_t>> edges;
-    std::map<uint32_t, uint32_t> entries; // edges into a node
+    std::map<uint32_t, uint32_t> entries; // number of edges into a node
     for (const uint32_t block : members_[region == kNoLoop ? members_.size() - 1 : region]) {
       const uint32_t from = nodeOf(block, region);
       for (const uint32_t next : code_.blocks[block].next) {
         const uint32_t to = nodeOf(next, region);
-        if (to == UINT32_MAX || (region != kNoLoop && next == entry)) continue; // out, or the next round
+        if (to == UINT32_MAX || (region != kNoLoop && next == entry)) continue; // outside, or the next iteration
         if (to == from && to >= code_.blocks.size()) continue;
         edges[from].push_back(to);
         ++entries[to];
@@ -65,7 +65,7 @@ private:
                     uint32_t entry, uint64_t& longest) const {
     std::map<uint32_t, uint64_t> before; // the longest path to the node
     std::vector<uint32_t> ready;
-    for (const auto& [node, targets] : edges) // what is never reached also ends somewhere
+    for (const auto& [node, targets] : edges) // unreachable nodes have successors, too
       if (!entries.contains(node)) ready.push_back(node);
     if (entries.contains(entry)) return false;
     if (!edges.contains(entry)) ready.push_back(entry);
@@ -90,7 +90,7 @@ private:
 
   const FunctionCode& code_;
   std::vector<uint64_t> costs_;                // by node
-  std::vector<std::vector<uint32_t>> members_; // blocks of each loop, with those of its inner ones; last: all
+  std::vector<std::vector<uint32_t>> members_; // blocks of each loop, including its inner loops; last: all
 };
 
 } // namespace
@@ -100,7 +100,7 @@ const CodeLength& CodeLengths::of(const std::string& function) {
   const auto found = functions_.find(function);
   if (found == functions_.end())
     return known_[function] = {.unknown = "it calls '" + function + "', whose code is not known"};
-  known_[function] = {.unknown = "'" + function + "' calls itself"}; // as long as it is being measured
+  known_[function] = {.unknown = "'" + function + "' calls itself"}; // while it is being measured
   const FunctionCode& code = found->second;
   CodeLength length{.unknown = code.unknown};
   std::vector<uint64_t> costs;

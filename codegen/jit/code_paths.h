@@ -1,4 +1,4 @@
-// Machine code as a graph, and its longest path. Free of LLVM.
+// Machine code as a graph, and its longest path. Does not include LLVM.
 #pragma once
 #include <cstdint>
 #include <map>
@@ -9,36 +9,36 @@ namespace rung::codegen {
 
 inline constexpr uint32_t kNoLoop = UINT32_MAX;
 
-// Instructions that are always run together.
+// Instructions that always run together.
 struct CodeBlock {
   uint64_t instructions = 0;
-  std::vector<std::string> calls{}; // of functions of the same code
+  std::vector<std::string> calls{}; // functions of the same code unit that it calls
   std::vector<uint32_t> next{};
-  uint32_t loop = kNoLoop; // the innermost one that it is in
+  uint32_t loop = kNoLoop; // the innermost loop that contains it
 };
 
 struct CodeLoop {
-  uint32_t header = 0;       // the only block where it is entered
-  uint32_t parent = kNoLoop; // comes before it in the list
-  uint64_t rounds = 0;       // in which the header runs, at most, each time that the loop is entered
+  uint32_t header = 0;       // the only block through which the loop is entered
+  uint32_t parent = kNoLoop; // precedes it in the list
+  uint64_t rounds = 0;       // most executions of the header each time the loop is entered
 };
 
 struct FunctionCode {
-  std::vector<CodeBlock> blocks{}; // it begins with the first
+  std::vector<CodeBlock> blocks{}; // the first one is the entry
   std::vector<CodeLoop> loops{};
-  std::string unknown{}; // not empty: why its length is not known
+  std::string unknown{}; // not empty: why its length cannot be determined
 };
 
 struct CodeLength {
-  uint64_t instructions = 0; // UINT64_MAX: at least that
+  uint64_t instructions = 0; // UINT64_MAX: at least this number
   std::string unknown{};
 };
 
-// By name. Each is measured once.
+// Lengths by function name, each computed once.
 class CodeLengths {
 public:
   explicit CodeLengths(std::map<std::string, FunctionCode> functions) : functions_(std::move(functions)) {}
-  // Of the longest path through a function.
+  // The length of the longest path through a function.
   const CodeLength& of(const std::string& function);
 
 private:

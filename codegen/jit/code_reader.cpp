@@ -18,15 +18,15 @@
 namespace rung::codegen {
 namespace {
 
-// Padding before a block that is aligned runs where control falls into the block.
+// Padding before an aligned block is executed where control falls into the block.
 uint64_t paddingAfter(const llvm::MachineBasicBlock& block) {
-  constexpr uint64_t kShortestNop = 4; // bytes, of as many as fit
+  constexpr uint64_t kShortestNop = 4; // bytes; as many as fit
   const llvm::MachineBasicBlock* next = block.getNextNode();
   return next == nullptr ? 0 : (next->getAlignment().value() - 1) / kShortestNop;
 }
 
-// The bounds of loops are those of the IR that the code was made of: its blocks know which they come from, and code
-// generation makes no loop of its own and repeats none more often.
+// The bounds of loops are those of the IR from which the code was made: its blocks refer to their IR blocks, and code
+// generation adds no loops and no iterations.
 class CodeReader final : public llvm::MachineFunctionPass {
 public:
   explicit CodeReader(CodeUnitCode& code) : MachineFunctionPass(kId), code_(code) {
@@ -68,7 +68,7 @@ public:
   }
 
 private:
-  static char kId; // LLVM knows a pass by its address
+  static char kId; // LLVM identifies a pass by its address
 
   void addLoop(const llvm::MachineLoop& loop, uint32_t parent, FunctionCode& code) {
     const auto number = static_cast<uint32_t>(code.loops.size());
@@ -77,7 +77,7 @@ private:
     for (const llvm::MachineLoop* inner : loop) addLoop(*inner, number, code);
   }
 
-  // Where loops of the IR have one header in the code, the code has one loop for them.
+  // If several loops of the IR have one header in the code, the code has one loop for them.
   uint64_t roundsOf(const llvm::MachineLoop& loop) {
     const auto irLoopOf = [&](const llvm::MachineLoop* of) -> const llvm::Loop* {
       const llvm::BasicBlock* block = of == nullptr ? nullptr : of->getHeader()->getBasicBlock();
@@ -116,7 +116,7 @@ private:
     ++byPointer_;
   }
 
-  // What the code's source calls by a pointer are the host's functions, which are not the code's.
+  // Calls by pointer are calls of host functions, which are not part of the code.
   static uint32_t hostCalls(const llvm::Function& function) {
     uint32_t calls = 0;
     for (const llvm::Instruction& instruction : llvm::instructions(function)) {
@@ -127,13 +127,13 @@ private:
   }
 
   CodeUnitCode& code_;
-  // Of the function in hand.
+  // Of the current function.
   const llvm::MachineLoopInfo* machineLoops_ = nullptr;
   const llvm::LoopInfo* loops_ = nullptr;
   llvm::ScalarEvolution* evolution_ = nullptr;
   std::map<const llvm::MachineBasicBlock*, uint32_t> blocks_;
   std::map<const llvm::MachineLoop*, uint32_t> loopNumbers_;
-  uint32_t byPointer_ = 0; // calls
+  uint32_t byPointer_ = 0; // number of calls by pointer
 };
 
 char CodeReader::kId = 0;

@@ -1,5 +1,5 @@
-// How many machine instructions a chunk takes at most: the longest path through its code, with the constant bounds of
-// its loops.
+// The most machine instructions that a run of a chunk can take: the longest path through its code, with the constant
+// bounds of its loops.
 #pragma once
 #include <map>
 #include <memory>
@@ -12,13 +12,13 @@
 
 namespace rung::codegen {
 
-// The code of a unit as graphs.
+// The code of a code unit as graphs.
 struct CodeUnitCode {
-  std::vector<std::string> chunks; // names of their functions
+  std::vector<std::string> chunks; // names of the chunks' functions
   std::map<std::string, FunctionCode> functions;
 };
 
-// For generateCode: fills `code`, which outlives it. What the host's functions do is not in it.
+// A pass for generateCode: fills `code`, which must outlive it. Host functions are not included.
 std::unique_ptr<llvm::FunctionPass> makeCodeReader(CodeUnitCode& code);
 
 } // namespace rung::codegen

@@ -1,4 +1,4 @@
-// From chunks to units, and from a unit to an object file (see code_units.h).
+// From chunks to code units, and from a unit to an object file (see code_units.h).
 #include "codegen/jit/code_units.h"
 
 #include "ir/shape/partition.h"
@@ -9,12 +9,12 @@ using namespace ir;
 
 namespace {
 
-// Small enough that threads have the same amount of work, also of a program of some hundred rungs, that memory stays
-// flat and that the first unit is soon there; large enough that a unit's own cost is small beside it.
+// Small enough that threads get equal amounts of work even from a program of some hundred rungs, that memory use stays
+// low and that the first unit is ready soon; large enough that the fixed cost of a unit is small.
 constexpr uint32_t kOpsPerUnit = 2048;
 
-// Where a unit may end when it is half full: by what the next chunk begins with, so that where rungs are inserted
-// above the units are soon cut at the same places again.
+// Whether a unit that is half full may end before the next chunk: decided by the key of the chunk's first rung, so that
+// after an insertion above, units soon end at the same places again.
 bool maybeEnds(const Module& module, const Chunk& next) {
   return module.at(next.routine).rungs[next.firstRung].key % 2 == 0;
 }

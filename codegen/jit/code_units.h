@@ -1,4 +1,4 @@
-// The units that a program is compiled in.
+// The code units of a program.
 #pragma once
 #include <memory>
 #include <span>
@@ -9,10 +9,10 @@
 
 namespace rung::codegen {
 
-// Each of chunks that follow one another. `chunks`: ascending.
+// Each unit has consecutive chunks. `chunks`: ascending.
 std::vector<ModulePart> partitionIntoUnits(const ir::Partition& partition, std::span<const uint32_t> chunks);
 
-// An object file for this machine. `reader`: as generateCode has it.
+// An object file for this computer. `reader`: as in generateCode.
 Result<std::string> compileUnit(const ir::Layout& layout, uint64_t codeHash, const LlvmOptions& options,
                                 const ModulePart& unit, std::unique_ptr<llvm::FunctionPass> reader = nullptr);
 

@@ -29,7 +29,7 @@ namespace {
 
 std::string textOf(llvm::Error error) { return llvm::toString(std::move(error)); }
 
-// Compiles or finds all units, and links each.
+// Compiles all units or finds them in the cache, and links each.
 class Compiler {
 public:
   Compiler(const Layout& layout, uint64_t codeHash, const JitOptions& options, std::string_view machine,
@@ -71,7 +71,7 @@ private:
     for (ModulePart& unit : units_) unit.members = members;
   }
 
-  // What fails within the compiler or LLVM ends the unit, and not the process.
+  // Internal errors of the compiler or LLVM fail the unit, and do not end the process.
   Result<std::string> compiled(const ModulePart& unit) {
     CodeUnitCode code;
     Result<std::string> object = contained([&] {
@@ -79,7 +79,7 @@ private:
     });
     CodeLengths lengths(std::move(code.functions));
     for (size_t c = 0; c < code.chunks.size(); ++c)
-      report_.lengths[unit.firstChunk + c] = lengths.of(code.chunks[c]); // no other unit has it
+      report_.lengths[unit.firstChunk + c] = lengths.of(code.chunks[c]); // each chunk is in one unit only
     return object;
   }
 
@@ -94,7 +94,7 @@ private:
     if (!linked.ok()) trouble_ = linked.error();
   }
 
-  // Each unit by itself: all have the same names.
+  // Links each unit into a library of its own, because the names are the same in all units.
   Result<void> link(const ModulePart& unit, const std::string& object, llvm::orc::LLJIT& jit,
                     const JitCode::Take& take) const {
     const std::string name = fmt::format("chunks from {}", unit.firstChunk);
@@ -126,13 +126,13 @@ private:
   std::vector<ModulePart> units_;
   ObjectCache cache_;
   std::atomic<size_t> next_{0};
-  std::mutex mutex_; // of what follows, and of linking
+  std::mutex mutex_; // protects the members below, and linking
   JitReport& report_;
   std::string trouble_;
 };
 
-// As LLVM's enableDebuggerSupport, which looks for the function by its name, among what all libraries of the process
-// see: not where LLVM was loaded for us alone. False: this machine's kind has no such linker.
+// Does what LLVM's enableDebuggerSupport does, which looks for the function by its name, among the global symbols of
+// the process: not if LLVM was loaded locally. False: there is no such linker for this kind of machine.
 bool showDebugger(llvm::orc::LLJIT& jit) {
   auto* layer = llvm::dyn_cast<llvm::orc::ObjectLinkingLayer>(&jit.getObjLinkingLayer());
   if (layer == nullptr) return false;
@@ -168,7 +168,7 @@ public:
 private:
   JitOptions options_;
   std::unique_ptr<llvm::orc::LLJIT> jit_;
-  std::string machine_; // that the code is for
+  std::string machine_; // description of the machine that the code is for
   JitReport report_;
 };
 

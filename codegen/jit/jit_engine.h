@@ -1,4 +1,4 @@
-// All of a layout as machine code, by the Engine interface. Free of LLVM.
+// A whole layout as machine code, as an Engine. Does not include LLVM.
 #pragma once
 #include <memory>
 #include <string_view>

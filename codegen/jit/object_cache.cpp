@@ -1,4 +1,4 @@
-// Object files on disk (see object_cache.h).
+// Stores object files on disk (see object_cache.h).
 #include "codegen/jit/object_cache.h"
 
 #include <cstring>
@@ -22,8 +22,8 @@ CacheKey sha256(std::string_view bytes) {
   return llvm::SHA256::hash({reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()});
 }
 
-// All of a unit that its code depends on, but for where it is in its program (CodeUnitNumbers) and for the memory that
-// it does not touch.
+// Everything in a unit that determines its code, except its position in the program (CodeUnitNumbers) and memory that
+// it does not access.
 class CodeUnitText {
 public:
   CodeUnitText(const ir::Layout& layout, const ModulePart& unit)
@@ -35,7 +35,7 @@ public:
 private:
   using Kind = CodeUnitNumbers::Kind;
 
-  // The rungs of a chunk, and where they go with which extra weight.
+  // The rungs of a chunk, and their destinations with extra weights.
   void putChunk(const ir::Chunk& chunk) {
     put(text_, "chunk {}\n", chunk.rungCount);
     first_ = chunk.firstRung;
@@ -60,7 +60,8 @@ private:
     put(text_, "{} {}\n", rung.transfer.cond.index, rung.transfer.value.index);
   }
 
-  // Places by where they lie, as the numbers of slots, and places of other cells, are of the whole program.
+  // Writes places as offsets in memory, because the numbers of slots and the places of other cells depend on the whole
+  // program.
   void putAttribute(const ir::Op& op) {
     const ir::MemoryLayout& memory = layout_.memory();
     const auto byte = static_cast<uint32_t>(op.imm / 8);
@@ -101,11 +102,11 @@ private:
   const ir::Layout& layout_;
   const ir::Partition& partition_;
   CodeUnitNumbers numbers_;
-  uint32_t first_ = 0; // of the chunk in hand
+  uint32_t first_ = 0; // first rung of the current chunk
   std::string text_;
 };
 
-// What the object says of itself; nothing when it is not an object or says nothing.
+// The identity in an object; nothing if it is not an object or has no identity.
 std::optional<CodeUnitIdentity> identityIn(std::string_view object) {
   const llvm::MemoryBufferRef bytes({object.data(), object.size()}, "");
   llvm::Expected<std::unique_ptr<llvm::object::ObjectFile>> file = llvm::object::ObjectFile::createObjectFile(bytes);
@@ -144,7 +145,7 @@ CacheKeys::CacheKeys(const ir::Layout& layout, uint64_t codeHash, const LlvmOpti
     : layout_(layout), debugInfo_(options.debugInfo) {
   std::string text = fmt::format("{} {} {} {} {}\n", version, machine, RUNG_ABI_VERSION,
                                  static_cast<int>(options.level), options.debugInfo);
-  // Debug information has all names and where the units are.
+  // Debug information contains all names and the positions of units.
   if (debugInfo_) text += fmt::format("{:x}\n", codeHash) + layout.memory().text() + ir::print(layout.module());
   whole_ = sha256(text);
 }

@@ -1,8 +1,8 @@
-// Object files kept in a folder, one a unit, by the hash of all that makes the unit's code, before any pass of LLVM:
-// of a program that changes in one rung the other units are found, also where they have moved, but for those whose
-// cells lie elsewhere in memory now. The key is also in the object (see CodeUnitIdentity) and is compared there: a file
-// under a right name with other contents counts as absent, as a damaged one does, and one that others could have
-// written (see runtime::CodeFolder). Several processes may use one folder.
+// Object files in a folder, one per code unit, by the hash of everything that determines the unit's code, before any
+// pass of LLVM: if one rung of a program changes, the other units are found, even if they have moved, except those
+// whose cells have other places in memory now. The object contains the key, too (see CodeUnitIdentity), which is
+// compared: a file with the right name and other contents counts as absent, as do damaged files and files that other
+// users could have written (see runtime::CodeFolder). Several processes may share a folder.
 #pragma once
 #include <optional>
 #include <string>
@@ -15,7 +15,7 @@
 
 namespace rung::codegen {
 
-// Keys of the units of one program for one machine. `version` is that of the compiler, which tests exchange.
+// Keys of the code units of one program for one machine. `version`: of the compiler; tests substitute it.
 class CacheKeys {
 public:
   CacheKeys(const ir::Layout& layout, uint64_t codeHash, const LlvmOptions& options, std::string_view machine,
@@ -25,15 +25,15 @@ public:
 private:
   const ir::Layout& layout_;
   bool debugInfo_;
-  CacheKey whole_ = {}; // all that the units share
+  CacheKey whole_ = {}; // hash of everything that all units share
 };
 
-// What follows an object's bytes in its file; a file that does not end in it was cut or changed.
+// The trailer of an object in its file; a file that does not end with it was truncated or changed.
 std::string cacheSeal(std::string_view object);
 
 class ObjectCache {
 public:
-  // An empty folder: nothing is kept or found.
+  // With an empty folder name nothing is stored or found.
   explicit ObjectCache(const std::string& folder);
 
   std::optional<std::string> find(const ModulePart& unit) const;
@@ -42,7 +42,7 @@ public:
 private:
   static std::string name(const ModulePart& unit);
   std::optional<runtime::CodeFolder> folder_;
-  std::string problem_; // of a folder that cannot be used
+  std::string problem_; // why the folder cannot be used
 };
 
 } // namespace rung::codegen

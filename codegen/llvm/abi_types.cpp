@@ -32,8 +32,8 @@ AbiTypes::AbiTypes(llvm::LLVMContext& context) {
 
 namespace {
 
-// Where the fields that code touches lie in C, for pointers of so many bytes. The asserts below hold this compiler's
-// structs to the same formulas.
+// The C offsets of the fields that code accesses, for a given size of pointers. The checks below apply the same
+// formulas to this compiler's structs.
 struct Offsets {
   uint64_t pointer;
   constexpr uint64_t ctxHost() const { return 8; }
@@ -68,7 +68,7 @@ void AbiTypes::check(const llvm::DataLayout& data) const {
              "rung_ctx lies as in C");
   RUNG_CHECK(at(hostApi, kMessage) == inC.hostMessage() && at(hostApi, kServiceResult) == inC.hostServiceResult(),
              "rung_host_api lies as in C");
-  // Without pointers: the same everywhere.
+  // Without pointers: the same on every target.
   RUNG_CHECK(at(fault, kFaultTask) == offsetof(rung_fault, task), "rung_fault lies as in C");
   RUNG_CHECK(at(message, kValue) == offsetof(rung_message, value) &&
                  data.getTypeAllocSize(message) == sizeof(rung_message),
@@ -145,7 +145,7 @@ private:
     return variable;
   }
 
-  // Equal texts are there once.
+  // Equal texts are stored once.
   llvm::Constant* textConstant(const char* text) {
     llvm::Constant*& constant = texts_[text];
     if (constant == nullptr) constant = global(llvm::ConstantDataArray::getString(context_, text), "text");

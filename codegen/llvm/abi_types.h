@@ -1,5 +1,5 @@
-// The structs of rung/program.h that code touches, as LLVM types for a target. Field numbers are those of the C
-// structs, and their offsets are checked against where C puts them on the target.
+// The structs of rung/program.h that compiled code accesses, as LLVM types for a target. Field numbers are those of the
+// C structs, and their offsets are checked against the C layout of the target.
 #pragma once
 #include "rung/program.h"
 
@@ -15,7 +15,7 @@ namespace rung::codegen {
 
 struct AbiTypes {
   explicit AbiTypes(llvm::LLVMContext& context);
-  // Stops the process when a struct does not lie as in C.
+  // Stops the process if the layout of a struct differs from C's.
   void check(const llvm::DataLayout& data) const;
 
   enum CtxField : unsigned { kNow, kHost, kHostData, kProf, kEngine, kFault, kSp, kExtraWeight, kStack };
@@ -33,7 +33,7 @@ struct AbiTypes {
 
 // The tables of a rung_program as LLVM constants, by walking the field lists of ir/image/abi_fields.h.
 
-// Adds the exported constant rung_program_table and all that it points to. `chunkTable` is the array of chunk
+// Adds the exported constant rung_program_table and everything that it points to. `chunkTable` is the array of chunk
 // functions.
 void addProgramTables(llvm::Module& module, const rung_program& program, llvm::Constant* chunkTable);
 

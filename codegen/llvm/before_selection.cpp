@@ -19,12 +19,12 @@
 namespace rung::codegen {
 namespace {
 
-// Long blocks are cut before instructions are selected: the selector and what follows it look through a whole block for
-// one instruction, so that time would grow with the square of a rung's length.
+// Long blocks are split before instruction selection: the selector and the passes after it search a whole block for
+// each instruction, so the time would grow with the square of a rung's length.
 
 constexpr uint32_t kMostInstructions = 512;
 
-// Of a place in a memory block that an argument points to.
+// The address computation of a place in a memory block that is an argument of the function.
 llvm::GetElementPtrInst* addressOf(llvm::Value& value) {
   auto* address = llvm::dyn_cast<llvm::GetElementPtrInst>(&value);
   const bool isPlace =
@@ -32,8 +32,8 @@ llvm::GetElementPtrInst* addressOf(llvm::Value& value) {
   return isPlace ? address : nullptr;
 }
 
-// Where the block is to be cut. Room on the stack comes first, and stays in the first block. Addresses do not
-// count: they are part of the instructions that use them, and each block has its own.
+// The instructions before which the block is split. Stack allocations come first, and stay in the first block. Address
+// computations do not count: they become part of the instructions that use them, and each block has its own.
 std::vector<llvm::Instruction*> cutsOf(llvm::BasicBlock& block) {
   std::vector<llvm::Instruction*> cuts;
   uint32_t count = 0;
@@ -50,8 +50,8 @@ std::vector<llvm::Instruction*> cutsOf(llvm::BasicBlock& block) {
   return cuts;
 }
 
-// The selector folds addresses of the memory block into the instructions of their own block, and keeps those of other
-// blocks in registers.
+// Copies address computations into the block: the selector folds them into instructions of the same block only, and
+// keeps those of other blocks in registers.
 void takeAddresses(llvm::BasicBlock& block) {
   llvm::DenseMap<llvm::Instruction*, llvm::Instruction*> own;
   for (llvm::Instruction& instruction : block) {
@@ -69,7 +69,7 @@ void takeAddresses(llvm::BasicBlock& block) {
   }
 }
 
-// For the end of the passes over LLVM's IR: earlier ones would put the blocks together again. True: it has changed.
+// Must run last of the passes over LLVM's IR: others would merge the blocks again. True: it has changed the function.
 bool splitBlocks(llvm::Function& function) {
   std::vector<llvm::Instruction*> cuts;
   for (llvm::BasicBlock& block : function) {
@@ -77,14 +77,14 @@ bool splitBlocks(llvm::Function& function) {
     cuts.insert(cuts.end(), ofBlock.begin(), ofBlock.end());
   }
   std::vector<llvm::BasicBlock*> made;
-  for (llvm::Instruction* cut : std::ranges::reverse_view(cuts)) // the last first: what follows a cut is moved
+  for (llvm::Instruction* cut : std::ranges::reverse_view(cuts)) // the last first: what follows a split is moved
     made.push_back(cut->getParent()->splitBasicBlock(cut));
   for (llvm::BasicBlock* block : made) takeAddresses(*block);
   return !made.empty();
 }
 
-// On x86 a comparison can take the place of a negation: with bits in bytes, a and not b is b < a, whose flag is stored
-// in one instruction, and of what is negated as a whole the flag of zero is stored.
+// On x86 a comparison can replace a negation: with bits in bytes, a and not b is b < a, whose flag is stored by one
+// instruction; for a negation of the whole, the zero flag is stored.
 
 using namespace llvm::PatternMatch;
 using llvm::Value;
@@ -92,18 +92,18 @@ using llvm::Value;
 using Values = llvm::SmallVector<Value*, 4>;
 using Operation = llvm::Instruction::BinaryOps;
 
-// What an and, or an or, joins.
+// The operands of an and, or of an or.
 struct Joined {
   Operation by = llvm::Instruction::And;
   Values plain{};
-  Values negated{}; // without their negation
+  Values negated{}; // the operands of negations
 };
 
 bool isBit(const Value& value, const llvm::DataLayout& data) {
   return llvm::computeKnownBits(&value, data).countMinLeadingZeros() >= value.getType()->getIntegerBitWidth() - 1;
 }
 
-// All bits may be inverted where the others are cut off afterwards.
+// All bits may be inverted if the others are masked afterwards.
 Value* negation(Value& value) {
   Value* inner = nullptr;
   const auto ones = m_CombineOr(m_One(), m_AllOnes());
@@ -147,7 +147,7 @@ private:
     return true;
   }
 
-  // Where it is asked whether a bit is 0.
+  // Replaces a test whether a bit is 0.
   bool runOnAsked(llvm::ICmpInst& asked) {
     if (!asked.isEquality() || !match(asked.getOperand(1), m_Zero())) return false;
     auto* bit = llvm::dyn_cast<llvm::BinaryOperator>(asked.getOperand(0));
@@ -159,7 +159,7 @@ private:
     return true;
   }
 
-  // Whether a bit is set, by flags. Null: no negation would be saved, or it is something else.
+  // A comparison whose flag is the bit. Null: it would save no negation, or the value has another form.
   llvm::ICmpInst* asTruth(llvm::BinaryOperator& bit) {
     if (!bit.getType()->isIntegerTy(8)) return nullptr;
     builder_.SetInsertPoint(&bit);
@@ -171,7 +171,7 @@ private:
     const bool isAnd = joined.by == llvm::Instruction::And;
     const auto isBitHere = [&](const Value* value) { return isBit(*value, data_); };
     if (joined.negated.empty() || !isBit(bit, data_) || !llvm::all_of(joined.negated, isBitHere)) return nullptr;
-    // An or of bits is one; of an and one item at least has to be.
+    // An or of bits is a bit; for an and, at least one operand must be a bit.
     if (isAnd && !joined.plain.empty() && llvm::none_of(joined.plain, isBitHere)) {
       joined.plain.front() = asBit(*joined.plain.front());
       if (joined.plain.front() == nullptr) return nullptr;
@@ -183,7 +183,8 @@ private:
                  : compare(llvm::ICmpInst::ICMP_UGE, plain, negated);
   }
 
-  // An or that inverts all bits of an item, with one that inverts the lowest. Null: it is something else.
+  // Replaces an or that inverts all bits of an operand by one that inverts the lowest. Null: the value has another
+  // form.
   Value* asBit(Value& value) {
     auto* both = llvm::dyn_cast<llvm::BinaryOperator>(&value);
     if (both == nullptr || both->getOpcode() != llvm::Instruction::Or) return nullptr;
@@ -214,8 +215,8 @@ private:
   llvm::IRBuilder<> builder_;
 };
 
-// For the end of the passes over LLVM's IR: earlier ones would make the negations again. The function is a chunk's, for
-// x86. True: it has changed.
+// Must run at the end of the passes over LLVM's IR: earlier ones would restore the negations. For functions of chunks,
+// on x86. True: it has changed the function.
 bool negateInFlags(llvm::Function& function) {
   Negations negations(function);
   bool changed = false;
@@ -235,11 +236,11 @@ public:
 
   bool runOnFunction(llvm::Function& function) override {
     const bool changed = isX86_ && function.hasFnAttribute(kChunkAttribute) && negateInFlags(function);
-    return splitBlocks(function) || changed; // the last, for it gives blocks that it cuts their addresses
+    return splitBlocks(function) || changed; // the last, because it copies addresses into the blocks that it splits
   }
 
 private:
-  static char kId; // LLVM knows a pass by its address
+  static char kId; // LLVM identifies a pass by its address
   bool isX86_ = false;
 };
 

@@ -1,5 +1,5 @@
-// The last pass over LLVM's IR, right before instructions are selected: what every earlier one would undo. It
-// cuts long blocks and, on x86, puts comparisons in the place of negations.
+// The last pass over LLVM's IR, immediately before instruction selection: changes that any earlier pass would undo. It
+// splits long blocks and, on x86, replaces negations by comparisons.
 #pragma once
 #include <memory>
 
@@ -7,7 +7,7 @@
 
 namespace rung::codegen {
 
-// Of a function that is a chunk: its first argument is the memory block.
+// Marks a function as a chunk: its first argument is the memory block.
 inline constexpr char kChunkAttribute[] = "rung-chunk";
 
 std::unique_ptr<llvm::FunctionPass> makeBeforeSelection();

@@ -1,5 +1,4 @@
-// Chunks, regions, exits and the host's functions (see chunk_emitter.h); operations with values are in
-// value_emitter.cpp.
+// Emits chunks, regions, exits and host calls (see chunk_emitter.h); operations with values are in value_emitter.cpp.
 #include "codegen/llvm/chunk_emitter.h"
 
 #include <algorithm>
@@ -42,7 +41,7 @@ llvm::Function* ChunkEmitter::emit(uint32_t chunk) {
 void ChunkEmitter::beginFunction(const ChunkPlan& plan) {
   bitsAreBytes_ = hasMostlyBytes(plan);
   const Rung& first = plan.routine.rungs[plan.chunk.firstRung];
-  const bool isNamed = numbers_ == nullptr || debug_ != nullptr; // else the code may be found for another place
+  const bool isNamed = numbers_ == nullptr || debug_ != nullptr; // else the cached code may serve elsewhere
   const std::string name = isNamed ? fmt::format("{}.{}", plan.routine.name, plan.chunk.firstRung) : "chunk";
   auto* signature = llvm::FunctionType::get(builder_.getInt32Ty(),
                                             {builder_.getPtrTy(), builder_.getPtrTy(), builder_.getInt32Ty()}, false);
@@ -60,13 +59,13 @@ void ChunkEmitter::beginFunction(const ChunkPlan& plan) {
   messageSpace_ = argsSpace_ = valueSpace_ = extra_ = nullptr;
   if (debug_ != nullptr) debug_->beginFunction(*function_, name, first.begin.file, first.begin.line);
   builder_.SetInsertPoint(block("entry"));
-  builder_.SetCurrentDebugLocation({}); // that of another function would not do
+  builder_.SetCurrentDebugLocation({}); // not that of another function
   firstRung_ = plan.chunk.firstRung;
   rungBlocks_.assign(plan.chunk.rungCount, nullptr);
   if (debug_ != nullptr) showMemory();
 }
 
-// False: control never comes here. All jumps to a rung are above it.
+// False: control never reaches the rung. All jumps to a rung come from rungs above it.
 bool ChunkEmitter::beginRung(uint32_t rung) {
   llvm::BasicBlock* own = rungBlocks_[rung - firstRung_];
   const bool falls = builder_.GetInsertBlock()->getTerminator() == nullptr;
@@ -85,7 +84,7 @@ void ChunkEmitter::setLine(uint32_t line) {
     builder_.SetCurrentDebugLocation(debug_->at(rung_->begin.file, line != 0 ? line : rung_->begin.line));
 }
 
-// The number as the address of a symbol, which the linker puts in.
+// The number as the address of a symbol, whose value the linker supplies.
 llvm::GlobalVariable* ChunkEmitter::symbol(CodeUnitNumbers::Kind kind, uint32_t number) {
   const std::string name = CodeUnitNumbers::name(numbers_->index(kind, number));
   if (llvm::GlobalVariable* known = target_.getNamedGlobal(name)) return known;
@@ -103,15 +102,15 @@ llvm::Constant* ChunkEmitter::number(CodeUnitNumbers::Kind kind, uint32_t number
   return llvm::ConstantExpr::getPtrToInt(symbol(kind, number), builder_.getInt32Ty());
 }
 
-// Keeps the address of the memory block where a debugger finds it all through the function.
+// Stores the address of the memory block where a debugger finds it throughout the function.
 void ChunkEmitter::showMemory() {
   llvm::AllocaInst* slot = builder_.CreateAlloca(builder_.getPtrTy());
   builder_.CreateStore(mem_, slot, true); // volatile, or the slot would be optimised away
   debug_->declareMemory(slot, builder_.GetInsertBlock());
 }
 
-// With debug information stores of earlier lines have reached memory when a line begins, and its loads have not
-// happened: a fence within the thread is not an instruction.
+// With debug information, stores of earlier lines reach memory before a line begins, and its loads come after that: a
+// fence within the thread, which generates no instruction.
 void ChunkEmitter::settleMemory(const Op& op) {
   if (debug_ == nullptr || options_.level == LlvmLevel::Fast) return;
   const uint32_t line = lineOf(*rung_, op);
@@ -153,7 +152,7 @@ void ChunkEmitter::emitOp(const Op& op) {
   case OpCode::Note: return;
   case OpCode::ProfEnter: return profEnter();
   case OpCode::ProfLeave: return profLeave();
-  default: break; // one result each; result() lists them
+  default: break; // one result each, handled by result()
   }
   Value* value = result(op);
   const bool through = !throughMemory_.empty() && throughMemory_[op.result.index];
@@ -316,10 +315,11 @@ ChunkEmitter::Value* ChunkEmitter::profOfRung() {
   return builder_.CreateInBoundsGEP(abi_.prof, counters, number(CodeUnitNumbers::Kind::Rung, number_));
 }
 
-// In order: what comes before has been done when the counter is read, and what follows has not begun. Otherwise a rung
-// would be measured while the processor is still at work on the one before, and hide in the time that reading takes.
-// The counter that the host calibrates (rtlib/core/ticks.h): the time stamp counter of x86, cntvct_el0 of ARM64. For
-// other machines the host asks the kernel, which code does not: rungs are counted there and not timed.
+// In order: everything before has been completed when the counter is read, and nothing after it has begun. Otherwise a
+// rung would be measured while the processor still works on the one before, and its time would be attributed to reading
+// the counter. The counter is the one that the host calibrates (rtlib/core/ticks.h): the time stamp counter of x86,
+// cntvct_el0 of ARM64. On other machines the host asks the kernel, which compiled code does not: rungs are counted
+// there but not timed.
 ChunkEmitter::Value* ChunkEmitter::ticks() {
   const llvm::Triple triple(target_.getTargetTriple());
   if (triple.isX86()) {
@@ -329,7 +329,7 @@ ChunkEmitter::Value* ChunkEmitter::ticks() {
     fence();
     return now;
   }
-  if (triple.isAArch64()) { // by name: LLVM 19 makes a constant 0 of readsteadycounter
+  if (triple.isAArch64()) { // by name: LLVM 19 turns readsteadycounter into a constant 0
     builder_.CreateIntrinsic(builder_.getVoidTy(), llvm::Intrinsic::aarch64_isb, {builder_.getInt32(15)});
     llvm::LLVMContext& context = target_.getContext();
     auto* name = llvm::MDNode::get(context, llvm::MDString::get(context, "cntvct_el0"));
@@ -375,7 +375,7 @@ void ChunkEmitter::returnToCaller() {
   returnValue(builder_.CreateLoad(builder_.getInt32Ty(), entry));
 }
 
-// Where a rung of this chunk begins that is jumped to.
+// The first block of a rung of this chunk that is the target of a jump.
 llvm::BasicBlock* ChunkEmitter::rungBlock(uint32_t rung) {
   llvm::BasicBlock*& own = rungBlocks_[rung - firstRung_];
   if (own == nullptr) own = block("rung");
@@ -395,7 +395,7 @@ void ChunkEmitter::goTo(const Destination& to) {
   }
 }
 
-// A block from which control goes there.
+// A block from which control goes to the destination.
 llvm::BasicBlock* ChunkEmitter::blockOf(const Destination& to) {
   if (to.inside() && to.extra == 0) return rungBlock(to.rung);
   llvm::IRBuilder<>::InsertPointGuard guard(builder_);
@@ -414,7 +414,7 @@ void ChunkEmitter::pushReturn(uint32_t chunk) {
   builder_.CreateStore(builder_.CreateAdd(sp, num(1)), spField);
 }
 
-// Between chunks alone the next one's number comes out of a table.
+// If all targets are chunks, the number of the next one comes from a table.
 void ChunkEmitter::emitSwitch(const Exit& exit) {
   Value* value = values_[exit.value.index];
   const auto inside = [](const Destination& to) { return to.inside(); };
@@ -423,7 +423,7 @@ void ChunkEmitter::emitSwitch(const Exit& exit) {
     for (uint32_t i = 1; i < exit.targets.size(); ++i) jump->addCase(builder_.getInt32(i), blockOf(exit.targets[i]));
     return;
   }
-  const bool areSymbols = numbers_ != nullptr; // then of the size of addresses, which each linker can put into data
+  const bool areSymbols = numbers_ != nullptr; // then of the size of addresses, which every linker can put into data
   llvm::Type* type = areSymbols ? static_cast<llvm::Type*>(builder_.getPtrTy()) : builder_.getInt32Ty();
   std::vector<llvm::Constant*> chunks;
   for (const Destination& to : exit.targets)
@@ -438,7 +438,7 @@ void ChunkEmitter::emitSwitch(const Exit& exit) {
   returnValue(areSymbols ? builder_.CreatePtrToInt(chunk, builder_.getInt32Ty()) : chunk);
 }
 
-// After an if with the condition of the jump its two regions go their ways without meeting.
+// After an if with the condition of the jump, its two regions leave separately without joining.
 bool ChunkEmitter::leaveFromRegions(const Exit& exit) {
   const bool same = join_ && join_->cond == exit.cond && join_->end == builder_.GetInsertBlock() && join_->end->empty();
   if (!same) return false;
@@ -454,7 +454,7 @@ void ChunkEmitter::emitExit(const Exit& exit) {
   if (exit.kind == TransferKind::Switch) return emitSwitch(exit);
   if (exit.kind == TransferKind::Next) {
     if (!exit.otherwise.inside()) goTo(exit.otherwise);
-    return; // else the rung below follows here
+    return; // otherwise the rung below follows here
   }
   if (exit.cond.valid()) {
     const bool jumps = exit.kind == TransferKind::Goto;
@@ -469,7 +469,7 @@ void ChunkEmitter::emitExit(const Exit& exit) {
   case TransferKind::Switch:
   case TransferKind::Goto: return goTo(exit.taken);
   case TransferKind::Call:
-    // A call at the end of a routine needs no return address of its own: the callee returns to the caller.
+    // A call at the end of a routine needs no return address: the callee returns to the caller.
     if (exit.otherwise.chunk != RUNG_NONE) pushReturn(exit.otherwise.chunk);
     return goTo(exit.taken);
   case TransferKind::Ret: return returnToCaller();

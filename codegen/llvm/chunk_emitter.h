@@ -1,6 +1,6 @@
 // Writes chunks as LLVM functions, operation by operation: each value of a rung is one LLVM value, regions are blocks
-// with phis. Plain instructions are used only where LLVM's rule is the IR's rule (never one that may give poison); all
-// other arithmetic is a call of the functions of sem.hpp.
+// with phis. LLVM instructions are used only if LLVM's semantics are those of the IR (never one that may give poison);
+// all other arithmetic calls the functions of sem.hpp.
 #pragma once
 #include <optional>
 #include <string>
@@ -17,8 +17,8 @@ namespace rung::codegen {
 
 class ChunkEmitter {
 public:
-  // `debug` may be null: no debug information. `numbers`: of the unit that all chunks are of; null: they are the whole
-  // program's, and numbers are in the code.
+  // `debug` may be null: no debug information. `numbers`: of the code unit that contains all chunks; null: the chunks
+  // are the whole program, and numbers are written in the code.
   ChunkEmitter(llvm::Module& target, const ir::Layout& layout, const LlvmOptions& options, DebugInfo* debug,
                const CodeUnitNumbers* numbers);
 
@@ -34,11 +34,11 @@ private:
     llvm::BasicBlock* other;               // if: begins the second region, or what follows; loop: what follows
     llvm::BasicBlock* end;                 // if: what follows
     llvm::BasicBlock* firstExit = nullptr; // if: the end of the first region, once it is reached
-    std::vector<Value*> yields{};          // of the first region
-    std::vector<llvm::PHINode*> phis{};    // loop: number of the pass, carried values
+    std::vector<Value*> yields{};          // results of the first region
+    std::vector<llvm::PHINode*> phis{};    // loop: number of the iteration, carried values
   };
 
-  // The end of an if without results: what its two regions end in.
+  // The end of an if without results: the last blocks of its two regions.
   struct Join {
     ir::ValueId cond;
     llvm::BasicBlock* end;
@@ -56,7 +56,7 @@ private:
   void showMemory();
   void settleMemory(const ir::Op& op);
 
-  // Operations with one result.
+  // Emits operations with one result.
   Value* result(const ir::Op& op);
   Value* instruction(const ir::Op& op);
   Value* arithmetic(const ir::Op& op);
@@ -105,18 +105,18 @@ private:
 
   Value* arg(const ir::Op& op, int i) const { return values_[ir::arg(*rung_, op, i).index]; }
   llvm::Type* type(ir::Type type) const;
-  // Between the IR's bits and what LLVM's comparisons give and branches take.
+  // Conversions between the IR's bits and the i1 of LLVM's comparisons and branches.
   Value* isSet(Value* bit);
   Value* asBit(Value* truth) { return builder_.CreateZExt(truth, type(ir::Type::Bit)); }
   Value* asByte(Value* bit) { return builder_.CreateZExt(bit, builder_.getInt8Ty()); }
   bool hasMostlyBytes(const ChunkPlan& plan) const;
   Value* num(uint64_t value) { return builder_.getInt32(static_cast<uint32_t>(value)); }
-  // In the memory block.
+  // An address in the memory block.
   Value* at(uint64_t offset) { return builder_.CreateConstInBoundsGEP1_64(builder_.getInt8Ty(), mem_, offset); }
   Value* ctxField(unsigned field) { return builder_.CreateStructGEP(abi_.ctx, ctx_, field); }
   Value* profField(Value* base, unsigned field) { return builder_.CreateStructGEP(abi_.prof, base, field); }
   Value* profOfRung();
-  // Space for what is handed to the host; one a function.
+  // Space for values passed to the host by address; one per function.
   Value* scratch(llvm::Value*& kept, llvm::Type* type);
   llvm::BasicBlock* block(const char* name) { return llvm::BasicBlock::Create(target_.getContext(), name, function_); }
 
@@ -129,20 +129,20 @@ private:
   AbiTypes abi_;
   llvm::IRBuilder<> builder_;
   bool extendsWords_;         // the ABI wants 32-bit arguments and results sign-extended
-  bool bitsAreBytes_ = false; // of the chunk: a bit is a byte, else an i1
+  bool bitsAreBytes_ = false; // whether the chunk's bits are bytes; otherwise i1
 
-  // Of the chunk and the rung in hand.
+  // Of the current chunk and rung.
   llvm::Function* function_ = nullptr;
   Value* mem_ = nullptr;
   Value* ctx_ = nullptr;
   Value* messageSpace_ = nullptr;
   Value* argsSpace_ = nullptr;
   Value* valueSpace_ = nullptr;
-  Value* extra_ = nullptr; // where a chunk adds up its extra weight, if it has any
+  Value* extra_ = nullptr; // where the chunk accumulates its extra weight, if it has any
   uint32_t firstRung_ = 0;
-  std::vector<llvm::BasicBlock*> rungBlocks_; // of the chunk's rungs, where something jumps to them
+  std::vector<llvm::BasicBlock*> rungBlocks_; // of the chunk's rungs that are targets of jumps
   const ir::Rung* rung_ = nullptr;
-  uint32_t settledLine_ = 0; // the line at whose beginning memory was settled last; 0: none
+  uint32_t settledLine_ = 0; // the line at whose beginning memory was last brought up to date; 0: none
   uint32_t number_ = 0;
   std::vector<Value*> values_;
   std::vector<bool> throughMemory_; // by value; empty: none

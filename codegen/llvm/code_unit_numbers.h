@@ -1,6 +1,6 @@
-// The numbers in a unit's code that say where the unit is in its program: of chunks that it goes to, of rungs and
-// lines that it names to the host. A rung that is inserted above changes these and nothing else. So the code has
-// symbols for them, whose values the linker puts in, and the same object serves wherever the unit is. Free of LLVM.
+// The numbers in a unit's code that depend on its position in the program: chunks to which it continues, rungs and
+// lines that it reports to the host. Inserting a rung above changes only these. The code therefore refers to them by
+// symbols whose values the linker supplies, and the same object serves at any position. Does not include LLVM.
 #pragma once
 #include <cstdint>
 #include <map>
@@ -20,7 +20,7 @@ public:
 
   CodeUnitNumbers(const ir::Partition& partition, const ModulePart& unit);
 
-  // Which of the values it is; the unit's code has it.
+  // Index of a number in values(); the unit's code must use it.
   uint32_t index(Kind kind, uint32_t number) const { return indices_.at({kind, number}); }
   std::span<const uint32_t> values() const { return values_; }
 
@@ -35,7 +35,7 @@ private:
   void add(Kind kind, uint32_t number);
 
   std::map<std::pair<Kind, uint32_t>, uint32_t> indices_;
-  std::vector<uint32_t> values_; // in the order in which the unit first has them
+  std::vector<uint32_t> values_; // in the order of first use
 };
 
 } // namespace rung::codegen

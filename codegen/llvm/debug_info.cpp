@@ -11,7 +11,7 @@ using namespace ir;
 
 namespace {
 
-// The struct of the memory block's names.
+// Builds the struct type with the names of the memory block.
 class MemoryType {
 public:
   MemoryType(llvm::DIBuilder& builder, llvm::DIFile* file) : builder_(builder), file_(file) {}
@@ -72,7 +72,8 @@ DebugInfo::DebugInfo(llvm::Module& target, const Module& source, const std::vect
     : target_(target), builder_(std::make_unique<llvm::DIBuilder>(target)), optimised_(optimised) {
   target.addModuleFlag(llvm::Module::Warning, "Debug Info Version", llvm::DEBUG_METADATA_VERSION);
   target.addModuleFlag(llvm::Module::Warning, "Dwarf Version", 4);
-  // No directory: debuggers look for the files where they run, and the output is the same wherever it was made.
+  // No directory: debuggers look for the files in their working directory, and the output is the same wherever it was
+  // made.
   for (const std::string& file : source.files) files_.push_back(builder_->createFile(file, ""));
   llvm::DIFile* first = files_.empty() ? builder_->createFile(source.name, "") : files_.front();
   builder_->createCompileUnit(llvm::dwarf::DW_LANG_C_plus_plus, first, "rungc", optimised, "", 0);

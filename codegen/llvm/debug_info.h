@@ -1,6 +1,6 @@
-// DWARF for the functions of one module: which source line each instruction belongs to, and the names of the program's
-// memory. In every function `mem` points to a struct of them (ir/shape/memory_members.h); `this` does the same, so
-// that gdb, which takes the code for C++, finds a name alone as well.
+// DWARF for the functions of one module: the source line of each instruction, and the names of the program's memory. In
+// every function `mem` points to a struct of them (ir/shape/memory_members.h); so does `this`, so that gdb, which takes
+// the code for C++, also finds an unqualified name.
 #pragma once
 #include <memory>
 #include <string>
@@ -27,16 +27,16 @@ namespace rung::codegen {
 
 class DebugInfo {
 public:
-  // `members`: of the source's memory block (memoryMembers).
+  // `members`: of the memory block of `source` (memoryMembers).
   DebugInfo(llvm::Module& target, const ir::Module& source, const std::vector<ir::MemoryMember>& members,
             bool optimised);
   ~DebugInfo();
 
-  // What follows belongs to `function`. Without a file it has no lines.
+  // Subsequent code belongs to `function`. Without a file it has no lines.
   void beginFunction(llvm::Function& function, const std::string& name, ir::FileIndex file, uint32_t line);
   // `slot` holds the address of the memory block from the end of `entry` on.
   void declareMemory(llvm::Value* slot, llvm::BasicBlock* entry);
-  // Null where nothing is known.
+  // Null if there is no line.
   llvm::DILocation* at(ir::FileIndex file, uint32_t line);
   void finish();
 
@@ -45,10 +45,10 @@ private:
   std::unique_ptr<llvm::DIBuilder> builder_;
   std::vector<llvm::DIFile*> files_;
   llvm::DISubroutineType* type_ = nullptr;
-  llvm::DIType* memory_ = nullptr; // the pointer's
+  llvm::DIType* memory_ = nullptr; // type of the pointer to memory
   llvm::DISubprogram* function_ = nullptr;
   ir::FileIndex functionFile_;
-  // The scope of the file last asked for; a function's rungs rarely come from more than one.
+  // The scope of the last file; the rungs of a function rarely come from more than one.
   llvm::DIScope* scope_ = nullptr;
   ir::FileIndex scopeFile_;
   bool optimised_;

@@ -1,4 +1,4 @@
-// The LLVM back end's results as text and bytes (see llvm_emitter.h).
+// Returns the LLVM back end's results as text and bytes (see llvm_emitter.h).
 #include "codegen/llvm/llvm_emitter.h"
 
 #include <llvm/Support/raw_ostream.h>
@@ -8,7 +8,7 @@
 namespace rung::codegen {
 namespace {
 
-// Hands the optimised module to `use`, which gives the result. Names of values are for readers only.
+// Passes the optimised module to `use`, which returns the result. Names of values are for readers only.
 template <class Use>
 Result<std::string> withModule(const ir::Layout& layout, uint64_t codeHash, const LlvmOptions& options, bool names,
                                Use use) {

@@ -30,9 +30,9 @@
 namespace rung::codegen {
 namespace {
 
-// Of a function's or a call's attributes those that say what is passed. An argument by value is a copy of the callee's
-// own: without that, a call that says that it does not look into its caller's frame (`tail`) would be a lie, and stores
-// to such an argument would be taken for dead.
+// The attributes of a function or a call that say how arguments are passed. An argument by value is a copy that belongs
+// to the callee: without that attribute, a call that is marked as not accessing its caller's frame (`tail`) would be
+// wrong, and stores to such an argument would be considered dead.
 llvm::AttributeList whatIsPassed(llvm::LLVMContext& context, const llvm::AttributeList& all, unsigned parameters) {
   llvm::AttributeList kept;
   for (unsigned i = 0; i < parameters; ++i) {
@@ -43,9 +43,8 @@ llvm::AttributeList whatIsPassed(llvm::LLVMContext& context, const llvm::Attribu
   return kept;
 }
 
-// The bitcode was made for another machine and with other options: nothing of that may prevent inlining.
-// Intrinsics keep theirs: a copy of memory says there how its places are aligned, and becomes a call where they are
-// not.
+// The bitcode was made for another machine and with other options: none of these attributes may prevent inlining.
+// Intrinsics keep theirs: a memory copy says in them how its places are aligned, and becomes a call if they are not.
 void adopt(llvm::Function& function) {
   llvm::LLVMContext& context = function.getContext();
   const bool shared = function.hasFnAttribute(llvm::Attribute::NoInline);
@@ -71,7 +70,7 @@ Result<void> linkSem(llvm::Module& module) {
     if (!object.isDeclaration()) own.insert(&object);
   (*sem)->setTargetTriple(module.getTargetTriple());
   (*sem)->setDataLayout(module.getDataLayout());
-  // Its notes on the machine it was made for would contradict ours.
+  // Its module flags for the machine it was made for would conflict with this module's.
   for (const char* name : {"llvm.module.flags", "llvm.ident"})
     if (llvm::NamedMDNode* node = (*sem)->getNamedMetadata(name)) node->eraseFromParent();
   if (llvm::Linker::linkModules(module, std::move(*sem), llvm::Linker::LinkOnlyNeeded))
@@ -161,8 +160,8 @@ void runPasses(llvm::Module& module, llvm::TargetMachine& machine, LlvmLevel lev
   perFunction.addPass(llvm::EarlyCSEPass(true));
   perFunction.addPass(llvm::InstCombinePass());
   perFunction.addPass(llvm::SimplifyCFGPass());
-  // Of rungs that follow one another: loads of what was stored above, equal conditions, stores that a later one writes
-  // over. Looking again after each step finds as many as GVN does; all passes together take a third less with it.
+  // For consecutive rungs: loads of values stored above, equal conditions, overwritten stores. Running it again after
+  // each step finds as much as GVN does; all passes together take a third less time with it.
   perFunction.addPass(llvm::ReassociatePass());
   perFunction.addPass(llvm::EarlyCSEPass(true));
   perFunction.addPass(llvm::JumpThreadingPass());

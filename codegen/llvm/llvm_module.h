@@ -1,5 +1,5 @@
-// Inside of the LLVM back end, shared with the JIT: from chunks to an optimised llvm::Module. The only header that
-// includes LLVM's; see llvm_emitter.h for what others use.
+// Internals of the LLVM back end, shared with the JIT: from chunks to an optimised llvm::Module. The only header that
+// includes LLVM's; other code uses llvm_emitter.h.
 #pragma once
 #include <memory>
 #include <string>
@@ -17,26 +17,27 @@ namespace rung::codegen {
 
 enum class MachineUse : uint8_t {
   File, // for any machine of the triple
-  Jit,  // for exactly this one
+  Jit,  // for exactly this computer
 };
 
-// Optimisation of the code generator follows the level.
+// The level also determines the optimisation of the code generator.
 Result<std::unique_ptr<llvm::TargetMachine>> makeTargetMachine(const LlvmOptions& options, MachineUse use);
 
-// Verified; functions of sem.hpp are linked in. Fails only where LLVM refuses what we made.
+// Verified, with the functions of sem.hpp linked in. Fails only if LLVM rejects the generated IR.
 Result<std::unique_ptr<llvm::Module>> buildModule(llvm::LLVMContext& context, const llvm::TargetMachine& machine,
                                                   const ir::Layout& layout, uint64_t codeHash,
                                                   const LlvmOptions& options, const ModulePart& part);
 
-// The passes of a level, before code generation.
+// Runs the passes of a level, before code generation.
 void runPasses(llvm::Module& module, llvm::TargetMachine& machine, LlvmLevel level);
 
-// Assembly or an object file; the module is used up. `reader`, which may be null, sees the instructions of each
-// function as they will be written.
+// Assembly or an object file; `module` cannot be used afterwards. `reader`, which may be null, is run on the final
+// instructions of each function.
 Result<std::string> generateCode(llvm::Module& module, llvm::TargetMachine& machine, llvm::CodeGenFileType type,
                                  std::unique_ptr<llvm::FunctionPass> reader = nullptr);
 
-// Target, processor, its features and the version of LLVM: what code depends on besides its source and options.
+// Target, processor, its features and the version of LLVM: everything that code depends on besides its source and
+// options.
 std::string describeMachine(const llvm::TargetMachine& machine);
 
 } // namespace rung::codegen

@@ -1,4 +1,4 @@
-// What goes into one LLVM module: a whole program, or a unit of one for the JIT. Free of LLVM.
+// The contents of one LLVM module: a whole program, or a code unit for the JIT. Does not include LLVM.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -14,18 +14,18 @@ using CacheKey = std::array<uint8_t, 32>; // SHA-256
 struct ModulePart {
   uint32_t firstChunk = 0;
   uint32_t chunkCount = 0;
-  // The module exports a table of its chunks' functions as kCodeUnitTable, and beside it a CodeUnitIdentity. Else it is
-  // the whole program and exports rung_program_table.
+  // The module exports a table of its chunks' functions as kCodeUnitTable, and a CodeUnitIdentity. Otherwise it is the
+  // whole program and exports rung_program_table.
   bool isUnit = false;
   CacheKey key{}; // of a unit
-  // For debug information: all units need the same ones. Null: they are found for the module.
+  // For debug information; the same for all units. Null: computed for the module.
   std::shared_ptr<const std::vector<ir::MemoryMember>> members{};
 };
 
 inline constexpr char kCodeUnitTable[] = "rung_chunks";
 inline constexpr char kCodeUnitIdentity[] = "rung_chunks_identity";
 
-// What an object file says of itself.
+// The identity of a code unit in its object file.
 struct CodeUnitIdentity {
   CacheKey key;
   uint32_t chunkCount;

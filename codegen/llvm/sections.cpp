@@ -1,4 +1,4 @@
-// Sections, by LLVM's own tools for objects (see sections.h).
+// Reads and adds sections, with LLVM's object tools (see sections.h).
 #include "codegen/llvm/sections.h"
 
 #include <fmt/format.h>

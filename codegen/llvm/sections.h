@@ -1,4 +1,5 @@
-// Sections of a shared object that no loader looks at: what a program carries for its compiler. Free of LLVM.
+// Sections of a shared object that no loader reads: data that a program carries for its compiler. Does not include
+// LLVM.
 #pragma once
 #include <optional>
 #include <string>
@@ -11,8 +12,8 @@ namespace rung::codegen {
 // The object with one more section.
 Result<std::string> withSection(std::string_view object, std::string_view name, std::string_view contents);
 
-// What the section holds; nothing if the object has no section of this name, or the file is not an object. Fails where
-// LLVM cannot be loaded.
+// The contents of the section; nothing if the object has no section of this name, or the file is not an object. Fails
+// if LLVM cannot be loaded.
 Result<std::optional<std::string>> sectionOf(std::string_view object, std::string_view name);
 
 } // namespace rung::codegen

@@ -1,11 +1,11 @@
-// The functions of sem.hpp under C names, for the LLVM back end: clang makes bitcode of this file at build time, and
+// The functions of sem.hpp under C names, for the LLVM back end: clang compiles this file to bitcode at build time, and
 // the emitter links what a program uses. A name is rung_sem_OPERATION_TYPE, in the words of the table of operations.
 // Numbers only, no pointers: one bitcode serves every target.
 #include "rung/sem.hpp"
 
 using namespace rung::sem;
 
-// Each value operation for each of its types, but for those that widen or narrow: they are instructions of LLVM's.
+// Each value operation for each of its types, except those that widen or narrow, for which LLVM has instructions.
 #define RUNG_TYPES_Bit(X, ...) X(bit, bool, __VA_ARGS__)
 #define RUNG_TYPES_I64(X, ...) X(i64, u64, __VA_ARGS__)
 #define RUNG_TYPES_Float(X, ...) X(f64, double, __VA_ARGS__)

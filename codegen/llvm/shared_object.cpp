@@ -1,4 +1,4 @@
-// Links an object file to a shared object inside the process (see llvm_emitter.h).
+// Links an object file to a shared object in the process (see llvm_emitter.h).
 #include <cerrno>
 #include <cstring>
 #include <mutex>
@@ -19,7 +19,7 @@ LLD_HAS_DRIVER(elf)
 namespace rung::codegen {
 namespace {
 
-// Bytes under a name that the linker can open; they are never on a disk.
+// Bytes under a name that the linker can open, never on a disk.
 class MemoryFile {
 public:
   explicit MemoryFile(std::string_view bytes) : file_(memfd_create("rung-object", MFD_CLOEXEC)) {
@@ -64,7 +64,7 @@ Result<void> runLinker(const std::vector<std::string>& inputs, const std::string
   return {};
 }
 
-// What standard output has got.
+// The bytes written to standard output.
 Result<std::string> contentsOfOutput() {
   std::string bytes(1 << 16, '\0');
   std::string all;
@@ -76,7 +76,7 @@ Result<std::string> contentsOfOutput() {
   return all;
 }
 
-// What the linker makes of `inputs`.
+// The result of linking `inputs`.
 Result<std::string> linkedByOutput(const std::vector<std::string>& inputs) {
   if (ftruncate(STDOUT_FILENO, 0) != 0 || lseek(STDOUT_FILENO, 0, SEEK_SET) != 0)
     return failure(fmt::format("cannot write standard output: {}", std::strerror(errno)));
@@ -85,7 +85,7 @@ Result<std::string> linkedByOutput(const std::vector<std::string>& inputs) {
 }
 
 Result<std::string> linkedByFile(const std::vector<std::string>& inputs) {
-  const TemporaryFolder folder; // the linker writes to nothing but a file
+  const TemporaryFolder folder; // the linker can only write to files
   if (!folder.ok()) return failure(fmt::format("cannot make a temporary folder: {}", std::strerror(errno)));
   const Result<void> done = runLinker(inputs, (folder / "program.so").string());
   if (!done.ok()) return done.failure();
@@ -96,8 +96,8 @@ Result<std::string> linkedByFile(const std::vector<std::string>& inputs) {
 
 using Linker = Result<std::string>(const std::vector<std::string>& inputs);
 
-// What a linker needs to know of libgcc_s.so.1, which every system of a 32-bit ARM has: the functions for what the
-// processor lacks, 64-bit division and conversions.
+// A stub of libgcc_s.so.1 for the linker, which every 32-bit ARM system has: functions that the processor lacks, 64-bit
+// division and conversions.
 Result<std::string> libraryOfArm(Linker& linked, const MemoryFile& nothing) {
   std::vector<std::string> inputs{"-marmelf_linux_eabi", "--soname=libgcc_s.so.1"};
   for (const char* name : {"ldivmod", "uldivmod", "idivmod", "uidivmod", "idiv", "uidiv", "lmul", "llsl", "llsr",

@@ -1,4 +1,4 @@
-// The machines that code is made for (see llvm_module.h).
+// The machines for which code is generated (see llvm_module.h).
 #include <mutex>
 
 #include <fmt/format.h>
@@ -20,7 +20,7 @@
 namespace rung::codegen {
 namespace {
 
-// What Debian's ports take for granted.
+// Processor and features that Debian's ports require.
 struct TargetRow {
   std::string_view triple;
   const char* cpu;
@@ -35,7 +35,7 @@ constexpr TargetRow kTargets[] = {
     {"riscv64-linux-gnu", "generic-rv64", "+m,+a,+f,+d,+c", "lp64d", false},
 };
 
-// What LLVM cannot continue after is an internal error like our own: a library throws it (ThrowingChecks).
+// A fatal error of LLVM is treated as an internal error of Rung: in a library it throws (ThrowingChecks).
 void fatalError(void*, const char* reason, bool) { checkFailed("LLVM", reason, __FILE__, __LINE__); }
 
 void initialiseLlvm() {
@@ -49,7 +49,7 @@ void initialiseLlvm() {
   });
 }
 
-// The row of this machine; for others than those of the table only the triple is known.
+// The row of this computer; for one that is not in the table, only the triple is known.
 TargetRow hostRow(const std::string& triple) {
   for (const TargetRow& row : kTargets)
     if (llvm::Triple(llvm::Triple::normalize(row.triple)).getArch() == llvm::Triple(triple).getArch()) return row;
@@ -62,15 +62,15 @@ std::string hostFeatures() {
   return features.getString();
 }
 
-// LLVM's addPassesToEmitFile, which offers no way to leave a pass out. False: the target has no such output.
+// Like LLVM's addPassesToEmitFile, which offers no way to omit a pass. False: the target does not support the output.
 bool addCodeGenerator(llvm::LLVMTargetMachine& machine, llvm::legacy::PassManager& passes, llvm::raw_pwrite_stream& out,
                       llvm::CodeGenFileType type, std::unique_ptr<llvm::FunctionPass> reader) {
   llvm::TargetPassConfig* config = machine.createPassConfig(passes);
-  // x86 reorders instructions itself. The scheduler compares all accesses of a block with each other: it is what would
-  // make time grow faster than the length of a chunk, and the code gains nothing by it.
+  // x86 reorders instructions itself. The scheduler compares all accesses of a block with each other: its time would
+  // grow faster than the length of a chunk, and the code would not become faster.
   if (machine.getTargetTriple().isX86()) config->disablePass(&llvm::MachineSchedulerID);
   auto* info = new llvm::MachineModuleInfoWrapperPass(&machine);
-  if (machine.getOptLevel() != llvm::CodeGenOptLevel::None) { // else instructions are selected one by one
+  if (machine.getOptLevel() != llvm::CodeGenOptLevel::None) { // otherwise instructions are selected one by one
     const std::unique_ptr<llvm::FunctionPass> last(llvm::createCodeGenPrepareLegacyPass());
     config->insertPass(last->getPassID(), makeBeforeSelection().release());
   }
@@ -116,7 +116,7 @@ Result<std::unique_ptr<llvm::TargetMachine>> makeTargetMachine(const LlvmOptions
   const llvm::CodeGenOptLevel level =
       options.level == LlvmLevel::Fast ? llvm::CodeGenOptLevel::None : llvm::CodeGenOptLevel::Less;
   const bool jit = use == MachineUse::Jit;
-  // The JIT's linker puts all that is in an object together. LLVM would think it far apart, and call by address.
+  // The JIT's linker keeps the contents of an object together. LLVM would assume large distances, and call by address.
   const bool isNear = jit && llvm::Triple(host).isX86();
   const std::optional<llvm::CodeModel::Model> model = isNear ? std::optional(llvm::CodeModel::Small) : std::nullopt;
   std::unique_ptr<llvm::TargetMachine> machine(target->createTargetMachine(

@@ -1,4 +1,4 @@
-// Operations with values, and stores, as LLVM instructions (see chunk_emitter.h).
+// Emits operations with values, and stores, as LLVM instructions (see chunk_emitter.h).
 #include "codegen/llvm/chunk_emitter.h"
 
 #include <fmt/format.h>
@@ -19,9 +19,9 @@ llvm::Type* ChunkEmitter::type(Type type) const {
   return llvm::Type::getIntNTy(context, std::max(bitWidth(type), bitsAreBytes_ ? 8u : 1u));
 }
 
-// An i1 is masked wherever another block or memory takes it, so that a byte, 0 or 1, is better for bits that lie in
-// bytes; but of a comparison that is joined with bits, and of a bit among others, a byte has to be made. What the chunk
-// has more of decides.
+// An i1 is masked wherever another block or memory uses it, so a byte, 0 or 1, is better for bits that are stored in
+// bytes; but a comparison that is combined with bits, and a bit within a byte, must be converted to a byte. The more
+// frequent case in the chunk decides.
 bool ChunkEmitter::hasMostlyBytes(const ChunkPlan& plan) const {
   uint32_t bytes = 0;
   uint32_t others = 0;
@@ -42,7 +42,7 @@ bool ChunkEmitter::hasMostlyBytes(const ChunkPlan& plan) const {
   return bytes >= 2 * others;
 }
 
-// Of a comparison that asBit made a bit of it is that comparison.
+// If asBit made the bit from a comparison, that comparison.
 ChunkEmitter::Value* ChunkEmitter::isSet(Value* bit) {
   if (!bitsAreBytes_) return bit;
   const auto* extended = llvm::dyn_cast<llvm::ZExtInst>(bit);
@@ -79,7 +79,7 @@ ChunkEmitter::Value* ChunkEmitter::result(const Op& op) {
   return nullptr;
 }
 
-// Where LLVM has an instruction for a value operation that is ours to the bit; else null.
+// The LLVM instruction for a value operation, if its semantics are exactly the same; otherwise null.
 ChunkEmitter::Value* ChunkEmitter::instruction(const Op& op) {
   switch (op.code) {
   case OpCode::Select: return builder_.CreateSelect(isSet(arg(op, 0)), arg(op, 1), arg(op, 2));
@@ -145,8 +145,8 @@ static llvm::CmpInst::Predicate predicateOf(OpCode code) {
 
 namespace {
 
-// Whether the bits of `cut`, sign and all, are not those of `wide`, as the flag that processors have for it: where that
-// is a sum, a difference or a product of numbers that are as wide as what `cut` has kept. Null: it is not.
+// Whether `wide` differs from its low bits, sign-extended in `partition`, as the overflow flag of processors: if `wide`
+// is a sum, a difference or a product of numbers with the width of these low bits. Null: it is not.
 llvm::Value* overflow(llvm::IRBuilder<>& builder, llvm::Value* partition, llvm::Value* wide) {
   using namespace llvm::PatternMatch;
   const auto* result = llvm::dyn_cast<llvm::BinaryOperator>(wide);
@@ -185,7 +185,7 @@ ChunkEmitter::Value* ChunkEmitter::arithmetic(const Op& op) {
   return asBit(builder_.CreateCmp(predicateOf(op.code), a, b));
 }
 
-// By a number below the width LLVM's shifts are ours.
+// By a number below the width, LLVM's shifts have the IR's semantics.
 ChunkEmitter::Value* ChunkEmitter::shift(const Op& op) {
   const auto* count = llvm::dyn_cast<llvm::ConstantInt>(arg(op, 1));
   if (count == nullptr || count->getZExtValue() >= bitWidth(op.type)) return nullptr;
@@ -195,7 +195,7 @@ ChunkEmitter::Value* ChunkEmitter::shift(const Op& op) {
   return builder_.CreateAShr(a, count->getZExtValue());
 }
 
-// By a number that is neither 0 nor -1 LLVM's divisions are ours.
+// By a number other than 0 and -1, LLVM's divisions have the IR's semantics.
 ChunkEmitter::Value* ChunkEmitter::divide(const Op& op) {
   auto* divisor = llvm::dyn_cast<llvm::ConstantInt>(arg(op, 1));
   if (divisor == nullptr || divisor->isZero() || divisor->isMinusOne()) return nullptr;
@@ -206,7 +206,7 @@ ChunkEmitter::Value* ChunkEmitter::divide(const Op& op) {
   return builder_.CreateURem(a, divisor);
 }
 
-// The functions take and give bits as bool, which is an i1.
+// The functions take and return bits as bool, which is an i1.
 ChunkEmitter::Value* ChunkEmitter::callSem(const Op& op) {
   std::vector<Value*> args;
   std::vector<llvm::Type*> types;
@@ -226,12 +226,12 @@ ChunkEmitter::Value* ChunkEmitter::callSem(const Op& op) {
 
 // ---- memory ------------------------------------------------------------------------------------------------------
 
-// Of a place in the memory block, which is aligned itself: no more than a value of the type asks for.
+// The alignment of an offset in the memory block, which is aligned itself: at most that of the type.
 llvm::Align ChunkEmitter::alignOf(uint64_t offset, Type type) const {
   return std::min(llvm::commonAlignment(llvm::Align(kBlockAlign), offset), llvm::Align(std::max(1u, byteWidth(type))));
 }
 
-// The runtime keeps the byte of a bit that has its own at 0 or 1.
+// The runtime keeps the byte of an expanded bit at 0 or 1.
 ChunkEmitter::Value* ChunkEmitter::readFlag(Value* address) {
   llvm::LoadInst* byte = builder_.CreateLoad(builder_.getInt8Ty(), address);
   byte->setMetadata(llvm::LLVMContext::MD_range,
@@ -279,11 +279,11 @@ void ChunkEmitter::slotStore(const Op& op) {
   builder_.CreateAlignedStore(value, at(offset), alignOf(offset, op.type));
 }
 
-// A place of a window that a computed index may miss.
+// A place in a window that a computed index may miss.
 struct ChunkEmitter::Element {
   Value* inside;  // whether the access is legal
-  Value* address; // legal in any case: of element 0 when the index misses
-  Value* bit;     // i8, where the access is one to a bit
+  Value* address; // always valid: that of element 0 if the index is out of range
+  Value* bit;     // i8, for an access to a bit
   llvm::Align align;
 };
 

@@ -1,4 +1,4 @@
-// What a chunk's rungs and exits say about it (see chunk_plan.h).
+// Derives the properties of a chunk's rungs and exits (see chunk_plan.h).
 #include "codegen/plan/chunk_plan.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// A chunk as both emitters write it.
+// A chunk in the form that both emitters write.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -12,18 +12,18 @@ struct ChunkPlan {
   const ir::Routine& routine;
   // By rung of the chunk.
   std::vector<ir::Exit> exits;
-  std::vector<bool> isTarget; // a jump in the chunk leads to it; all of them are above it
+  std::vector<bool> isTarget; // target of a jump in the chunk; all such jumps are forward
 
-  bool addsWeight = false; // some path costs extra weight, which the chunk adds up and reports where it is left
-  // The host may read memory while the chunk runs. Elsewhere the chunk alone reaches the memory block, and emitters say
-  // so to their compilers.
+  bool addsWeight = false; // some path costs extra weight, which the chunk accumulates and reports at its exits
+  // The host may read memory while the chunk runs. Otherwise only the chunk accesses the memory block, and emitters
+  // declare that to their compilers.
   bool hostReads = false;
 
   uint32_t endRung() const { return chunk.firstRung + chunk.rungCount; }
   const ir::Exit& exit(uint32_t rung) const { return exits[rung - chunk.firstRung]; }
 };
 
-// The layout outlives the plan.
+// The layout must outlive the plan.
 ChunkPlan planOf(const ir::Layout& layout, uint32_t chunk);
 
 } // namespace rung::codegen

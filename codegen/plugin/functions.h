@@ -1,5 +1,5 @@
-// LLVM's back end as a library that a program loads when it first needs it: loading LLVM takes longer than most of what
-// the compiler does without it. The programs have load.cpp, and the plug-in the real functions; both are of one build.
+// The LLVM back end as a library that a program loads on first use: loading LLVM takes longer than most other work of
+// the compiler. Programs contain load.cpp, the plug-in the real functions; both must come from the same build.
 #pragma once
 #include "codegen/jit/jit_code.h"
 #include "codegen/llvm/llvm_emitter.h"
@@ -16,7 +16,7 @@ struct LlvmFunctions {
   decltype(&makeJitCode) jitCode;
 };
 
-// What the plug-in exports: its functions, which stay as they are.
+// The plug-in's export. It returns the table of its functions, which stays valid.
 using GetLlvmFunctions = const LlvmFunctions* (*)();
 inline constexpr const char* kLlvmPlugin = "rung-llvm.so";
 inline constexpr const char* kGetLlvmFunctions = "rung_llvm_functions";

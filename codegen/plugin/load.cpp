@@ -1,4 +1,4 @@
-// The side of the programs (see functions.h): each function of LLVM's back end loads the plug-in and hands over.
+// The part in the programs (see functions.h): each function of the LLVM back end loads the plug-in and calls it.
 #include "codegen/llvm/embedded.h"
 #include "codegen/plugin/functions.h"
 #include "rtlib/load/plugin.h"
@@ -6,7 +6,7 @@
 namespace rung::codegen {
 namespace {
 
-// Any thread; it is loaded once.
+// May be called on any thread; the plug-in is loaded once.
 Result<const LlvmFunctions*> llvmFunctions() {
   static const runtime::Plugin plugin(kLlvmPlugin, codeVersion());
   if (!plugin.ok()) return failure("LLVM cannot be loaded: " + plugin.problem());

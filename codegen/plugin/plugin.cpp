@@ -1,4 +1,4 @@
-// The side of the plug-in (see functions.h).
+// The part in the plug-in (see functions.h).
 #include "codegen/plugin/functions.h"
 
 #include "codegen/llvm/embedded.h"
@@ -7,7 +7,8 @@
 namespace rung::codegen {
 namespace {
 
-// Inside the plug-in a ThrowingChecks of the program is not known: what fails within the compiler or LLVM is a failure.
+// A ThrowingChecks of the program has no effect in the plug-in: here internal errors of the compiler or LLVM become
+// failures.
 template <auto function>
 struct Contained;
 template <class Answer, class... Arguments, Answer (*function)(Arguments...)>

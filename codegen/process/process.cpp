@@ -1,4 +1,4 @@
-// Child processes (see process.h).
+// Runs child processes (see process.h).
 #include "codegen/process/process.h"
 
 #include <fcntl.h>
@@ -16,7 +16,7 @@
 namespace rung::codegen {
 namespace {
 
-// Where a child's output goes.
+// Redirects a child's output.
 class Redirects {
 public:
   explicit Redirects(const ProcessOutput& output) {
@@ -45,7 +45,7 @@ bool isExecutable(const std::string& path) {
   return std::filesystem::is_regular_file(path, error) && access(path.c_str(), X_OK) == 0;
 }
 
-// How the child ended, as waitpid says it; nothing, with errno, where that cannot be known.
+// How the child ended, as waitpid reports it; nothing, with errno, if that is unknown.
 std::optional<int> waitFor(pid_t child) {
   int status = 0;
   pid_t ended = 0;

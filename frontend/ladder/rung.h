@@ -1,16 +1,15 @@
-// A rung as a graph: contacts, coils and boxes, and the nets between them, whatever the dialect and wherever it comes
-// from (frontend/ladder/text reads drawings). Names, operands and mnemonics stay text, which lives as long as its
-// source, and are the dialect's business, and so is every rule that needs its instruction table.
+// A rung as a graph: contacts, coils and boxes, and the nets between them, for any dialect and from any source
+// (frontend/ladder/text reads drawings). Names, operands and mnemonics remain text, which lives as long as its source;
+// the dialect interprets them and has all rules that need its instruction table.
 //
-// Nets. Everything that wires join is one net. Net 0 of a rung is the left rail. A net has power when one of the
-// elements that drive it passes power. Net ids and element ids are counted per rung. Elements are in the order of
-// evaluation: an element comes after all elements that drive its inputs; among those that are ready the first in the
-// source goes first. There are no loops (power-loop is an error). A rung with an error in its wires has bad == true and
-// was reported. It keeps the elements that could be read, in the order of the source, and an Error where one could not;
-// of its nets nothing holds.
+// Nets. Everything that wires connect is one net. Net 0 of a rung is the left rail. A net has power if one of its
+// drivers passes power. Net ids and element ids are counted per rung. Elements are in the order of evaluation: an
+// element follows all elements that drive its inputs; among those that are ready the first in the source precedes.
+// There are no loops (power-loop is an error). A rung with an error in its wires has bad == true and was reported. It
+// keeps the elements that could be read, in source order, and an Error for each unreadable one; its nets are undefined.
 //
-// Who makes one: elements with their operands and pins, and nets without links; then linkNets, checkPower, checkClosed,
-// orderElements.
+// A reader makes elements with their operands and pins, and nets without links; then it calls linkNets, checkPower,
+// checkClosed, orderElements.
 #pragma once
 #include <cstdint>
 #include <span>
@@ -32,11 +31,11 @@ using ElementId = Id<struct ElementTag>;
 inline constexpr NetId kRail{0};
 inline constexpr NetId kNoNet{};
 
-/// Error: what could not be read, to the end of its bracket, or of its line.
+/// Error: an unreadable part, up to the end of its bracket or line.
 enum class ElementKind : uint8_t { Contact, Coil, Box, Error };
 enum class CoilKind : uint8_t { Plain, Negated, Set, Reset };
 
-/// First and count of a run in one of the rung's pools.
+/// First index and number of items in one of the rung's pools.
 struct Slice {
   uint32_t first = 0;
   uint32_t count = 0;
@@ -64,17 +63,17 @@ struct Element {
 };
 
 struct Net {
-  SourceRange range; ///< a place to point at: its first wire, or an element that it touches
+  SourceRange range; ///< a position for reports: its first wire, or an element that it touches
   Slice drivers;     ///< see Rung::driversOf
   Slice consumers;   ///< see Rung::consumersOf
 };
 
-/// A comment on a line of its own, or after a line of a drawing.
+/// A comment on a separate line, or after a line of a drawing.
 struct Comment {
   std::string_view text; ///< without blanks at its ends
   SourceRange range;     ///< with the ';'
   uint32_t line = 0;
-  bool alone = false; ///< on its line
+  bool alone = false; ///< the only thing on its line
 };
 
 struct Rung {
@@ -85,11 +84,11 @@ struct Rung {
   SourceRange range;            ///< from the word `rung` to the end of the last drawing line
   uint32_t firstLine = 0;       ///< the line of the word `rung`
   uint32_t lastLine = 0;        ///< the last line of the drawing
-  uint32_t module = UINT32_MAX; ///< of its source; UINT32_MAX outside of any (reported)
+  uint32_t module = UINT32_MAX; ///< index in its source; UINT32_MAX outside of any module (reported)
 
   std::vector<Comment> comments; ///< from the line after `statement` to the last line of the drawing
   std::vector<Element> elements; ///< in order of evaluation
-  std::vector<Net> nets;         ///< nets[0] is the left rail, also when nothing touches it
+  std::vector<Net> nets;         ///< nets[0] is the left rail, also if no element touches it
   std::vector<Word> operandPool;
   std::vector<Pin> pinPool;
   std::vector<ElementId> linkPool; ///< drivers and consumers of all nets
@@ -103,7 +102,7 @@ struct Rung {
   std::span<const Pin> pinsOf(const Element& e) const { return std::span(pinPool).subspan(e.pins.first, e.pins.count); }
   /// The net at the first pin.
   NetId inputOf(const Element& e) const { return pinPool[e.pins.first].input; }
-  /// The elements whose output is this net, in order of evaluation. The rail has none and always carries power.
+  /// The elements whose output is this net, in order of evaluation. The rail has no drivers and always has power.
   std::span<const ElementId> driversOf(NetId net) const { return links(nets[net.index].drivers); }
   /// The elements with an input on this net, in order of evaluation; an element with two such pins appears twice.
   std::span<const ElementId> consumersOf(NetId net) const { return links(nets[net.index].consumers); }
@@ -115,34 +114,34 @@ private:
 /// Fills the drivers and consumers of all nets, which must be numbered.
 void linkNets(Rung& rung);
 
-/// Power comes from the left rail: reports elements that feed themselves or the rail and nets that nothing drives.
-/// False where there are some. The nets must be linked.
+/// Power comes from the left rail: reports elements that feed themselves or the rail, and nets without a driver. False
+/// if there are any. The nets must be linked.
 bool checkPower(const Rung& rung, Diagnostics& diagnostics);
 
-/// Reports nets that lead to nothing. False where there are some. The nets must be linked.
+/// Reports nets without a consumer. False if there are any. The nets must be linked.
 bool checkClosed(const Rung& rung, Diagnostics& diagnostics);
 
-/// Puts the elements into the order of evaluation; sets Rung::bad and reports where they are a loop. The nets must be
+/// Puts the elements into the order of evaluation; if they form a loop, sets Rung::bad and reports it. The nets must be
 /// linked.
 void orderElements(Rung& rung, Diagnostics& diagnostics);
 
-/// An element in its brackets, as it is written without needless blanks.
+/// An element in its brackets, as written, without unneeded blanks.
 std::string elementText(const Element& element, std::span<const Word> operands);
 
-/// One line an element: `e2 [/STOP] n1 -> n2`, pins after the first as `R=n3`, `.` for no output. Then its comments.
+/// One line per element: `e2 [/STOP] n1 -> n2`, pins after the first as `R=n3`, `.` for no output. Its comments follow.
 std::string dumpRung(const Rung& rung);
 
-// What the rows of a dialect say of the pins of a drawing.
+// The pins of a drawing, compared with the rows of a dialect.
 
-/// Whether two names of pins are one to the dialect.
+/// Whether the dialect considers two pin names equal.
 using SameName = bool (*)(std::string_view a, std::string_view b);
 
-/// The pins of a box against those of its row: reports those that are missing, and those that it does not have.
+/// Compares the pins of a box with those of its row: reports missing and unknown ones.
 bool checkPins(const frontend::InstructionInfo& info, std::span<const Pin> drawn, SourceRange box, SameName same,
                Diagnostics& diagnostics);
 
-/// Whether a pin is at the left rail although its element needs a condition, or is not although it takes none. How that
-/// is said is the dialect's business.
+/// Whether a pin is at the left rail although its element needs a condition, or is not although it takes none. The
+/// dialect reports it.
 bool isMisplaced(const frontend::InstructionInfo& info, const Pin& pin);
 
 } // namespace rung::frontend::ladder

@@ -1,4 +1,4 @@
-// What every lowering adds to a module.
+// Items that every lowering adds to a module.
 #pragma once
 #include <span>
 #include <string>
@@ -14,19 +14,19 @@ namespace rung::frontend {
 ir::SpaceId addSpace(ir::Module& module, ir::Space space);
 ir::SlotId addSlot(ir::Module& module, ir::Slot slot);
 ir::RoutineId addRoutine(ir::Module& module, std::string name);
-// The sources in their order; gives where each is, by its FileId.
+// Adds the sources in their order; returns the index of each, by its FileId.
 std::unordered_map<uint32_t, ir::FileIndex> addFiles(ir::Module& module, const SourceManager& sources,
                                                      std::span<const FileId> files);
-// A hidden symbol: cells that are found by their name in a changed program, or by the host.
+// A hidden symbol: cells that the host finds by name, or that are matched by name in a changed program.
 void nameCells(ir::Module& module, std::string name, ir::Place place, ir::Type type, uint32_t count = 1);
-// Once all are there: by name, with comments as readers are to see them.
+// Called after all symbols have been added: sorts them by name, with comments for display.
 void settleSymbols(ir::Module& module);
 
-// Each is in the module once, however often it is asked for.
+// Each is added to the module once, on first use.
 ir::ServiceId service(ir::Module& module, const nc::ServiceRow& row);
 ir::FaultId fault(ir::Module& module, std::string_view text);
 
-// Keys of what is otherwise alike: the second has "~1" after it (rung_slot in rung/program.h).
+// Distinguishes equal keys: the second gets the suffix "~1" (rung_slot in rung/program.h).
 class Numbering {
 public:
   std::string numbered(std::string key);
@@ -35,8 +35,8 @@ private:
   std::unordered_map<std::string, uint32_t> alike_;
 };
 
-// Hidden spaces that hold bytes, each text of bytes once. The name says what they are, so that a program that is
-// exchanged while it runs finds its own.
+// Hidden spaces with constant bytes, each sequence of bytes once. The name describes the bytes, so that a replacement
+// program finds its own.
 class ConstantBytes {
 public:
   explicit ConstantBytes(ir::Module& module) : module_(module) {}

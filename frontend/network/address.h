@@ -1,5 +1,5 @@
 // Addresses of a language and numbers as text. An address is a byte, or a bit of one; data of several bytes begin at
-// their low byte.
+// the low byte.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -22,7 +22,7 @@ struct Address {
 // "X2.1", "D10": without leading zeros.
 std::string textOf(const Language& language, const Address& address);
 
-// The shape of a word that begins like an address: an area letter and digits, then perhaps a point.
+// The form of a word that begins like an address: an area letter and digits, possibly followed by a point.
 struct AddressText {
   Area area;
   uint64_t byte; // saturated
@@ -31,7 +31,7 @@ struct AddressText {
 };
 std::optional<AddressText> splitAddress(const Language& language, std::string_view text);
 
-// Where a signal of the language is.
+// The address of a signal of the language.
 Address addressOf(const Language& language, const nc::Signal& signal);
 
 // Digits only, saturating; nullopt for anything else.

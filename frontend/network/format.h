@@ -1,4 +1,4 @@
-// Both source forms of a language in their one style.
+// Formats both source forms of a language.
 #pragma once
 #include <optional>
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace rung::frontend::network {
 
-// A file laid out anew, ladder text or a command list; nothing where it cannot be read, which is reported.
+// A formatted file, ladder text or a command list; nothing if it cannot be read, which is reported.
 std::optional<std::string> format(const Language& language, SourceManager& sources, FileId file,
                                   Diagnostics& diagnostics);
 

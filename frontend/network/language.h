@@ -1,5 +1,5 @@
-// What a language of this family has of its own, as plain data: a dialect fills it in one place, and everything that
-// reads, checks and converts its programs asks here.
+// The properties of a language of this family, as plain data: a dialect defines them in one place, and all code that
+// reads, checks and converts its programs uses them.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -16,7 +16,7 @@
 
 namespace rung::frontend::network {
 
-// The row of an instruction of this family of languages: what reading, checking and converting a program ask of it.
+// The row of an instruction of this family of languages: its properties for reading, checking and converting programs.
 // lower/lowered_row.h adds the lowering.
 
 // Instructions that shape the program; everything else is Plain.
@@ -27,12 +27,12 @@ constexpr bool isEnd(Control control) { return control == Control::LevelEnd || c
 struct Row {
   frontend::InstructionInfo info;
   Control control = Control::Plain;
-  // Numbers of this class that appear twice in a program give a warning.
+  // A number of this class that is used twice in a program gives a warning.
   enum class Numbers : uint8_t { Free, Timer, Counter, Edge } numbers = Numbers::Free;
   bool ignoresCondition = false; // one value before it is accepted, and has no effect
   bool hasTable = false;
-  uint32_t recordBytes = 0; // of an operand of kind Record
-  bool built = true;        // else it is known, and refused by name
+  uint32_t recordBytes = 0; // for an operand of kind Record
+  bool built = true;        // otherwise it is known, and refused by name
 };
 
 // The statements of a list (P12). Declarations are allowed in lists as in ladder text, for conversions.
@@ -52,12 +52,12 @@ constexpr bool isClosed(Command contact) {
 constexpr bool isCoil(Command command) { return command >= Command::Out && command <= Command::Reset; }
 constexpr bool isDeclaration(Command command) { return command == Command::Symbol || command == Command::Const; }
 
-// A place in Language::areas.
+// An index in Language::areas.
 enum class Area : uint8_t {};
 
 enum class AreaUse : uint8_t { Input, Output, Memory };
 
-// The first `bytes` of `every` are set on the control's screen, and not by the program.
+// The first `bytes` of each group of `every` bytes are set on the control's screen, and not by the program.
 struct Presets {
   uint32_t bytes = 0;
   uint32_t every = 1;
@@ -69,72 +69,72 @@ struct AreaInfo {
   AreaUse use = AreaUse::Memory;
   bool retained = false; // through power-off
   std::string_view doc;
-  bool shown = false; // memory whose bits the control shows, or passes on
+  bool shown = false; // memory whose bits the control displays or passes on
   Presets presets{};
-  uint32_t system = UINT32_MAX; // from this byte on it belongs to the control
-  std::string_view instead{};   // what is written where other languages have bits in an area of this letter
+  uint32_t system = UINT32_MAX; // bytes from this one on belong to the control
+  std::string_view instead{};   // what to write instead, for a letter that other languages use for bits
 
-  // Whether what a coil writes is seen by others than contacts and functions.
+  // Whether what a coil writes is visible outside of contacts and functions.
   constexpr bool seenOutside() const { return use == AreaUse::Output || shown; }
 };
 
 // When a level runs (P3).
 enum class Turn : uint8_t {
-  EverySlot, // whole, in each slot, on the inputs as they are
-  Parts,     // a part in each slot: the main program, to which a JMPC leads
-  LastSlot,  // whole, in the slot of the main program's last part
+  EverySlot, // completely, in each slot, with the present inputs
+  Parts,     // one part in each slot: the main program, to which a JMPC leads
+  LastSlot,  // completely, in the slot of the main program's last part
 };
 
-// What the control runs by itself, without a call.
+// A part of a program that the control runs without a call.
 struct Level {
   std::string_view name; // of its task, and of its module in a ladder
   std::string_view end;  // the function that ends it in a list; its row is a Control::LevelEnd
   Turn turn = Turn::Parts;
-  Diag endMissing{}; // reported of `end`
+  Diag endMissing{}; // reported if `end` is missing
   Diag endTwice{};
 
-  // Whether it sees the inputs as they were when it began.
+  // Whether it uses the inputs as they were at its beginning.
   constexpr bool latchesInputs() const { return turn != Turn::EverySlot; }
 };
 
 struct Language {
   std::string_view name;                                // of the dialect
   std::string_view listExtension;                       // of a file with a command list
-  std::array<std::string_view, kCommandCount> commands; // their names, by Command
+  std::array<std::string_view, kCommandCount> commands; // names of the commands, by Command
   std::span<const Row* const> rows;
   std::span<const AreaInfo> areas;
   const nc::SignalTable& (*signals)(); // names that need no declaration
-  std::span<const Level> levels;       // in the order of a list, which is that of a slot; one runs in Parts
+  std::span<const Level> levels;       // in the order of a list, which is that of a slot; exactly one runs in Parts
   std::string_view subprogram;         // before the number in a `module` statement
-  std::string_view messageTexts;       // where they are given, instead of by statements of a ladder
-  uint32_t maxSteps = 0;               // commands, parameters and table rows of a program
-  uint32_t stackDepth = 0;             // values in the stack register
+  std::string_view messageTexts;       // a note on where they are configured, if not by statements of a ladder
+  uint32_t maxSteps = 0;               // most commands, parameters and table rows of a program
+  uint32_t stackDepth = 0;             // number of values in the stack register
   uint32_t maxCallDepth = 0;
   ladder::FindBox findBox = nullptr;
   std::span<const frontend::ForeignWord> foreign; // commands and functions of other languages
 
   constexpr std::string_view nameOf(Command command) const { return commands[static_cast<size_t>(command)]; }
   constexpr const AreaInfo& at(Area area) const { return areas[static_cast<size_t>(area)]; }
-  // In any case; null when there is none, or it is not a function.
+  // Ignoring case; null if there is none, or it is not a function.
   const Row* findFunction(std::string_view mnemonic) const;
   const Row* findFunction(uint64_t number) const;
-  // By its name, in any case.
+  // By its name, ignoring case.
   std::optional<uint32_t> findLevel(std::string_view levelName) const;
-  // The place in `levels` of the one that runs in parts.
+  // The index in `levels` of the one that runs in parts.
   uint32_t mainLevel() const;
   const Row& endOf(uint32_t level) const;
   // The level that a Control::LevelEnd ends.
   uint32_t levelOf(const Row& end) const;
-  // The one that shapes the program so: not the end of a level.
+  // The row that shapes the program in this way, other than the end of a level.
   const Row& rowOf(Control control) const;
   std::string_view mnemonicOf(Control control) const { return rowOf(control).info.mnemonic; }
-  // With its number, as a list names it: "END1 (FUNC 0)".
+  // With its number, as in a list: "END1 (FUNC 0)".
   std::string fullNameOf(const Row& row) const;
-  // A label or a subprogram as the operand of its instruction is written.
+  // A label or a subprogram as an operand of its instruction.
   std::string numbered(Control control, int64_t number) const;
-  // The letter that it begins with.
+  // The letter with which it begins.
   char letterOf(Control control) const;
-  // Of the functions that are so, with "or" between them.
+  // The mnemonics of the functions for which isSo holds, with "or" between them.
   std::string mnemonicsOf(bool (*isSo)(const Row& row)) const;
 };
 

@@ -1,4 +1,4 @@
-// Kinds of operands: what a row may ask for. A dialect has a descriptor for each of its own.
+// Kinds of operands. A dialect has a descriptor for each of its kinds.
 #pragma once
 #include <optional>
 
@@ -8,22 +8,22 @@
 
 namespace rung::frontend::network {
 
-// How the word of an operand is read.
+// How the word of an operand is parsed.
 enum class OperandClass : uint8_t { Value, Number, Mask, Named, Format };
-// What says how many bytes there are at an address.
+// What determines the number of bytes at an address.
 enum class Length : uint8_t { OfKind, OfFormat, OfNumber, OfRow };
 
 struct OperandTraits {
   OperandClass parse = OperandClass::Value;
-  bool address = true;               // Value: an address may be written
-  bool constant = false;             // Value: a constant may; where both may the format says which
+  bool address = true;               // Value: an address is allowed
+  bool constant = false;             // Value: a constant is allowed; if both are, the format selects one
   Length length = Length::OfKind;    // of an address
   uint32_t bytes = 1;                // of an address, with OfKind
-  std::optional<Area> area = {};     // of an address: the only one that is allowed
-  Diag elsewhere = diag::BadOperand; // it is in another area
-  bool rest = false;                 // of an address: all that follows in its area may be meant
-  bool selects = false;              // Format: says whether it is a constant or an address
-  std::string_view written = "{}";   // how a value is written; Named begins with its letter
+  std::optional<Area> area = {};     // of an address: the only area allowed
+  Diag elsewhere = diag::BadOperand; // reported for another area
+  bool rest = false;                 // of an address: it may include all bytes after it in its area
+  bool selects = false;              // Format: selects a constant or an address
+  std::string_view written = "{}";   // how a value is written; for Named, begins with its letter
 };
 
 struct OperandKind : frontend::OperandKindInfo, OperandTraits {};

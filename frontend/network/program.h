@@ -1,5 +1,5 @@
-// The program between reading and lowering: units of networks. Both source forms end here; a network is what a command
-// list can say (P11): contacts in postfix order, then a function or nothing, then coils.
+// The program between reading and lowering: units of networks. Both source forms are converted to it; a network is what
+// a command list can express (P11): contacts in postfix order, then at most one function, then coils.
 #pragma once
 #include <cstdint>
 #include <span>
@@ -14,15 +14,15 @@
 
 namespace rung::frontend::network {
 
-// What is not a command in a program, as its author wrote it. Readers of both forms keep it with the network or unit
-// that it is before, where a conversion asks for it.
+// The parts of a program that are not commands, as its author wrote them. If a conversion needs them, the readers of
+// both forms store them with the network or unit that follows.
 
-// Comments have no ';' before them, no blanks at their ends, no control characters. The title of a network is one of
-// the comments of its gap, where the rule of titles (read/drawn_comments.h) finds it.
+// Comments are without their ';', blanks at their ends and control characters. The title of a network is one of the
+// comments of its gap, as the rule of titles (read/drawn_comments.h) finds it.
 struct Item {
   enum class Kind : uint8_t { Comment, Blank, Dialect, Symbol, Const, Section };
   Kind kind = Kind::Comment;
-  std::string text = {};    // of a comment, a section; the name of a symbol or constant
+  std::string text = {};    // of a comment or a section; for a symbol or constant, its name
   std::string value = {};   // of a symbol or constant
   std::string comment = {}; // after a statement
 };
@@ -30,14 +30,14 @@ using Gap = std::vector<Item>;
 
 inline constexpr uint32_t kNone = UINT32_MAX;
 
-// A command as its author wrote it, for conversions. In ladder form it is what a part of the drawing means.
+// A command as its author wrote it, for conversions. In ladder form it is the meaning of a part of the drawing.
 struct Written {
   Command command = Command::Load;
   std::string_view operand; // FUNC: the mnemonic
-  SourceRange range;        // of the statement or the element; PRM and TABLE of a box: of the operand
+  SourceRange range;        // of the statement or the element; for PRM and TABLE of a box, of the operand
   uint32_t line = 0;
   std::vector<std::string> before = {}; // comment lines; those before the first command are in the network's gap
-  std::string comment = {};             // after it, on its line
+  std::string comment = {};             // the comment on the same line
 };
 
 enum class Logic : uint8_t { Load, And, Or, OrBlock, AndBlock };
@@ -53,9 +53,9 @@ struct LogicStep {
 enum class Coil : uint8_t { Out, OutInverted, Set, Reset }; // in the order of their commands
 
 Command commandOf(Logic kind, bool negated);
-// A logic command as the stack register sees it.
+// The effect of a logic command on the stack register.
 Logic logicOf(Command command);
-// Of those that are logic commands.
+// Of those commands that are logic commands.
 std::vector<Logic> logicOf(std::span<const Written> commands);
 constexpr Command commandOf(Coil kind) {
   return static_cast<Command>(static_cast<uint8_t>(Command::Out) + static_cast<uint8_t>(kind));
@@ -74,9 +74,9 @@ struct CoilStep {
 struct Param {
   const OperandKind* kind = nullptr;
   bool isAddress = false;
-  bool bad = false; // reported
+  bool bad = false; // an error was reported
   Address address;
-  uint32_t bytes = 1; // from the address on; of a data table all that could belong to it
+  uint32_t bytes = 1; // from the address on; for a data table everything that could belong to it
   int64_t value = 0;  // constant, number, mask, label, subprogram, format as a00n
   SourceRange range;
 };
@@ -86,7 +86,7 @@ struct Function {
   const Row* row = nullptr; // null: the network has none
   std::vector<Param> params;
   std::vector<int64_t> table;
-  uint32_t length = 1; // bytes, from the format
+  uint32_t length = 1; // in bytes, from the format
   SourceRange range;
   uint32_t line = 0;
 };
@@ -95,25 +95,25 @@ struct Network {
   FileId file;
   uint32_t firstLine = 0;
   uint32_t lastLine = 0;
-  SourceRange range; // its first command or its drawing
+  SourceRange range; // of its first command or its drawing
   std::string_view title;
   std::vector<LogicStep> logic;
   Function function;
   std::vector<CoilStep> coils;
-  // What its author wrote, where Context::gaps are kept.
+  // What its author wrote, if Context::gaps are kept.
   Gap gap; // before it
   std::vector<Written> written;
   uint32_t steps = 0;
-  bool bad = false;        // reported; never lowered
-  bool incomplete = false; // bad in a way that may hide a function command
+  bool bad = false;        // an error was reported; it is never lowered
+  bool incomplete = false; // its error may hide a function command
 
-  // Filled in by analyse(): indices of networks in the unit, of a unit in the program.
+  // Set by analyse(): indices of networks in the unit, of a unit in the program.
   uint32_t target = kNone;
   uint32_t callee = kNone;
-  uint32_t com = kNone; // the COM network whose region this one is in
+  uint32_t com = kNone; // the COM network whose region contains this one
 };
 
-// What its function is to the program.
+// The control type of its function.
 inline Control controlOf(const Network& network) {
   return network.function.row == nullptr ? Control::Plain : network.function.row->control;
 }
@@ -122,15 +122,15 @@ enum class UnitKind : uint8_t { Level, Subprogram };
 
 struct Unit {
   UnitKind kind = UnitKind::Level;
-  uint32_t number = 0;           // of a subprogram; of a level its place in Language::levels
-  SourceRange range;             // what opens the unit
+  uint32_t number = 0;           // of a subprogram; for a level, its index in Language::levels
+  SourceRange range;             // of the statement that opens the unit
   SourceRange nameRange;         // subprograms: the operand of SP
   std::vector<Network> networks; // the last one is the unit's end: that of the level, or SPE
-  // What its author wrote, where Context::gaps are kept.
-  Gap lead;                       // before `module`; in a list of the end of the level before it, or of SP
-  std::string comment;            // after it, on its line
-  std::vector<Written> condition; // of SP, without effect (P13)
-  // Filled in by analyse().
+  // What its author wrote, if Context::gaps are kept.
+  Gap lead;                       // before `module`; in a list, before the end of the preceding level, or before SP
+  std::string comment;            // the comment on the same line
+  std::vector<Written> condition; // before SP, without effect (P13)
+  // Set by analyse().
   std::vector<bool> runBy; // by level: whether it runs the unit
   bool leaves = false;     // a JMPC can leave it for the main program
 };
@@ -143,14 +143,15 @@ std::string nameOf(const Language& language, const Unit& unit);
 struct Program {
   explicit Program(const Language& language);
 
-  std::vector<Unit> units;           // the levels by their places in the language, then subprograms
-  std::vector<uint32_t> jumpTargets; // networks of the main program that a JMPC leads to; Network::target counts here
+  std::vector<Unit> units;           // the levels by their index in the language, then subprograms
+  std::vector<uint32_t> jumpTargets; // targets of JMPC in the main program; Network::target is an index here
 };
 
-// The network as a command list, one command a line, operands without leading zeros: the text that keys are made of.
+// The network as a command list, one command per line, operands without leading zeros: the text from which keys are
+// made.
 std::string commandText(const Language& language, const Network& network);
-// What an instruction is known by while its network changes around it: mnemonic and parameters; of a timer, a counter
-// or an edge its number alone.
+// The identity of an instruction while its network changes: mnemonic and parameters; for a timer, a counter or an edge
+// only its number.
 std::string identityOf(const Language& language, const SourceManager& sources, const Function& function);
 
 } // namespace rung::frontend::network

@@ -1,4 +1,4 @@
-// Which routines of a program call which; they are numbered as the dialect wants.
+// The calls between the routines of a program, which the dialect numbers.
 #pragma once
 #include <cstdint>
 #include <functional>
@@ -20,19 +20,19 @@ public:
   void add(uint32_t caller, uint32_t callee, SourceRange at) { calls_[caller].push_back({callee, at}); }
   std::span<const Call> of(uint32_t caller) const { return calls_[caller]; }
 
-  // Calls that lead back to where they come from: `call` closes the circle, `through` are the routines between its
-  // callee and itself, in the order of their calls.
+  // A cycle of calls: `call` closes it, `through` are the routines between its callee and itself, in the order of their
+  // calls.
   struct Circle {
     Call call;
     std::vector<uint32_t> through;
   };
   struct Order {
     std::vector<Circle> circles;
-    std::vector<uint32_t> calleesFirst; // all routines; with circles not all of them before their callers
+    std::vector<uint32_t> calleesFirst; // all routines; with cycles, not all of them precede their callers
   };
   Order order() const;
 
-  // " through A, B" for a message; "" where a routine calls itself.
+  // " through A, B" for a message; "" if a routine calls itself.
   static std::string throughText(const Circle& circle, const std::function<std::string(uint32_t)>& nameOf);
 
 private:

@@ -1,5 +1,5 @@
-// Words and numbers that programmers bring along from other languages and controls, and what is written for them here.
-// Each dialect has one table of the words.
+// Words and numbers that programmers use from other languages and controls, and their equivalents. Each dialect has one
+// table of the words.
 #pragma once
 #include <cstdint>
 #include <functional>
@@ -13,22 +13,22 @@
 namespace rung::frontend {
 
 struct ForeignWord {
-  std::string_view word; // in capitals; of two words of a statement with a blank between
-  std::string_view here; // one of this language that means the same, or how it is said here
-  bool same = false;     // the first: it is written in its place, with the same operands
+  std::string_view word; // in capitals; for two words of a statement, with a blank between
+  std::string_view here; // an equivalent word of this language, or how to express it
+  bool same = false;     // `here` replaces it, with the same operands
 };
 
-// In any case; null when it is none of them.
+// Ignoring case; null if it is unknown.
 const ForeignWord* findForeign(std::span<const ForeignWord> words, std::string_view word);
 
-// Adds what is written instead. With a fix only where the meaning stays and `fits`: the operands are those of the word.
+// Adds the equivalent to the report. With a fix only if the meaning is the same and `fits`: the operands suit the word.
 void explainForeign(DiagBuilder& report, SourceRange range, const ForeignWord& word, bool fits);
 
-// Whether a word is one of this language with a letter after it by which others invert the value (N, I) or ask for an
-// edge (P, F): not a slip of the hand, and the word alone does something else.
+// Whether a word is one of this language with a suffix by which other languages invert the value (N, I) or detect an
+// edge (P, F): this is not a typing error, and the word without suffix has another meaning.
 bool isModified(std::string_view word, std::string_view known);
 
-// Whether a word is as likely a slip of the hand for any of several of these, which would do different things.
+// Whether a word could equally be a misspelling of several of these, which have different meanings.
 template <class Words, class NameOf = std::identity>
 bool isAmbiguous(std::string_view word, Words&& words, NameOf nameOf = {}) {
   text::Similar similar(word);
@@ -48,12 +48,12 @@ std::optional<ForeignNumber> foreignNumber(std::string_view text);
 struct ForeignTime {
   enum class Unit : uint8_t { Milliseconds, Seconds, Minutes, Hours };
   uint64_t amount = 0;
-  Unit unit = Unit::Milliseconds; // that of a single whole number; else milliseconds
+  Unit unit = Unit::Milliseconds; // unit of a single whole number; otherwise milliseconds
   uint64_t milliseconds() const;
 };
 std::optional<ForeignTime> foreignTime(std::string_view text);
 
-// A comparison in the place of an operand, `a > 5`: its sides without blanks, and what IEC 61131 calls it.
+// A comparison in place of an operand, `a > 5`: its sides without blanks, and its name in IEC 61131.
 struct ForeignComparison {
   std::string_view left;
   std::string_view word; // GT, GE, EQ, NE, LE, LT

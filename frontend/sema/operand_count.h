@@ -1,4 +1,4 @@
-// How many operands an instruction takes.
+// The number of operands of an instruction.
 #pragma once
 #include <string>
 #include <string_view>
@@ -8,8 +8,8 @@
 
 namespace rung::frontend {
 
-// Whether an instruction takes `found` operands. False after the report operand-count at `at`, with a list of them and,
-// where it is not empty, a further note.
+// Whether an instruction takes `found` operands. False after the report operand-count at `at`, with a list of the
+// operands and, if it is not empty, `note`.
 bool countFits(const InstructionInfo& info, size_t found, SourceRange at, Diagnostics& diagnostics,
                std::string_view note = {});
 

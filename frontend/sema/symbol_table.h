@@ -1,6 +1,6 @@
-// The names of a program, for every dialect: here they are declared, found in their scopes and used, and those that are
-// not declared are reported. A dialect derives its own table, which knows what a declaration means and which names the
-// control has; tools ask the Analysis, which gets it all in the end.
+// The names of a program, for every dialect: they are declared, found in their scopes and used, and undeclared ones are
+// reported. A dialect derives its own table, which interprets declarations and has the names of the control; tools use
+// the Analysis, which receives everything in the end.
 #pragma once
 #include <algorithm>
 #include <cstdint>
@@ -24,8 +24,8 @@ inline constexpr uint32_t kNoName = UINT32_MAX;
 
 inline constexpr std::string_view kFirstDeclared = "first declared here";
 
-// Reports a name that is declared again. `first` is the former place, and `note` what it is; invalid: the control has
-// the name.
+// Reports a name that is declared again. `first` is the former position, and `note` describes it; invalid: the control
+// has the name.
 void reportDuplicate(Diagnostics& diagnostics, std::string_view name, SourceRange range, SourceRange first,
                      std::string_view note = kFirstDeclared);
 
@@ -35,7 +35,7 @@ struct UndeclaredUse {
   SourceRange range;
 };
 
-// The places of the uses.
+// The positions of the uses.
 template <class Use>
 std::vector<SourceRange> placesOf(std::span<const Use> uses) {
   std::vector<SourceRange> places;
@@ -43,41 +43,41 @@ std::vector<SourceRange> placesOf(std::span<const Use> uses) {
   return places;
 }
 
-// Adds the second use, and how many there are.
+// Adds the second use, and the number of further ones.
 void noteFurtherUses(DiagBuilder& report, SourceRange second, size_t further);
 
-// What all spellings of a name have in common.
+// The common form of all spellings of a name.
 using NameKey = std::string (*)(std::string_view name);
-// Capitals and small letters differ, and all of a name counts.
+// Case is significant, and so is the whole name.
 std::string asWritten(std::string_view name);
 
-// A Symbol has a `name`, whose text lives as long as the table, and the range `declared`: invalid, it is the control's.
-// Undeclared is an UndeclaredUse, with what the dialect needs to know for the report. Two names of the same key are one
-// name. Symbols are numbered in the order of entering and stay where they are. Scope 0 is there from the beginning;
-// each addScope makes the next.
+// A Symbol has a `name`, whose text lives as long as the table, and the range `declared`, invalid for a name of the
+// control. Undeclared is an UndeclaredUse, with what the dialect needs for the report. Two names with the same key are
+// one name. Symbols are numbered in the order in which they are added and do not move. Scope 0 always exists; each
+// addScope makes the next.
 template <class Symbol, class Undeclared = UndeclaredUse>
 class SymbolTable {
 public:
-  // In the first of the scopes that has the name; kNoName where none has.
+  // In the first of the scopes that has the name; kNoName if none has.
   uint32_t find(std::string_view name, std::initializer_list<uint32_t> scopes = {0}) const {
     const std::string key = keyOf_(name);
     for (const uint32_t scope : scopes)
       if (const auto at = scopes_[scope].find(key); at != scopes_[scope].end()) return at->second;
     return kNoName;
   }
-  // A name that means the symbol is written there.
+  // Records a use of the symbol's name.
   void use(SourceRange range, uint32_t symbol) { uses_.push_back({range, symbol}); }
   const Symbol& operator[](uint32_t symbol) const { return symbols_[symbol]; }
   const std::deque<Symbol>& all() const { return symbols_; }
-  // In the order of their noting; the definition is the number of the symbol.
+  // In the order of recording; the definition is the number of the symbol.
   std::span<const NameUse> uses() const { return uses_; }
 
-  // Whether a declaration of this name was reported, because it is none: uses stay silent.
+  // Whether a declaration of this name was reported as invalid: uses are not reported.
   bool wasRefused(std::string_view name) const { return refused_.contains(keyOf_(name)); }
-  // In any order, also several times.
+  // May be called in any order, also several times.
   void noteUndeclared(Undeclared use) { undeclared_[keyOf_(use.name)].push_back(std::move(use)); }
-  // Once for each name, at its first use. `explain` gets the report, which has the name as its first argument, and all
-  // uses, the first one first, so that a fix is one of all.
+  // Reports each name once, at its first use. `explain` is called with the report, which has the name as its first
+  // argument, and all uses, the first one first, so that a fix can apply to all.
   template <class Explain>
   void reportUndeclared(Diagnostics& diagnostics, Diag code, Explain explain) {
     const auto begin = [](const Undeclared& use) { return use.range.begin; };
@@ -92,7 +92,7 @@ public:
     }
   }
 
-  // Gives the analysis what it has: definitionOf(symbol) for each symbol, by its number, and the uses.
+  // Adds the table to the analysis: definitionOf(symbol) for each symbol, by its number, and the uses.
   template <class DefinitionOf>
   void addTo(Analysis& analysis, DefinitionOf definitionOf) const {
     for (const Symbol& symbol : symbols_) analysis.define(definitionOf(symbol));
@@ -103,25 +103,25 @@ protected:
   explicit SymbolTable(NameKey keyOf = asWritten) : keyOf_(keyOf) {}
 
   void addScope() { scopes_.emplace_back(); }
-  // A symbol that no name leads to.
+  // Adds a symbol that cannot be found by name.
   uint32_t add(Symbol symbol) {
     symbols_.push_back(std::move(symbol));
     return static_cast<uint32_t>(symbols_.size() - 1);
   }
-  // A symbol that its name leads to from now on.
+  // Adds a symbol and lets its name refer to it from now on.
   uint32_t enter(Symbol symbol, uint32_t scope = 0) {
     const uint32_t index = add(std::move(symbol));
     scopes_[scope].insert_or_assign(keyOf_(symbols_[index].name), index);
     return index;
   }
-  // The same, but a name that the scope has already is reported; kNoName then.
+  // The same, but a name that the scope already has is reported; then kNoName.
   uint32_t declare(Symbol symbol, Diagnostics& diagnostics) {
     const uint32_t first = find(symbol.name);
     if (first == kNoName) return enter(std::move(symbol));
     reportDuplicate(diagnostics, symbol.name, symbol.declared, symbols_[first].declared);
     return kNoName;
   }
-  // The dialect has reported that the declared name is none.
+  // Called when the dialect has reported that the declared name is invalid.
   void refuse(std::string_view name) { refused_.insert(keyOf_(name)); }
   Symbol& edit(uint32_t symbol) { return symbols_[symbol]; }
 

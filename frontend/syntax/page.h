@@ -1,6 +1,6 @@
 // A source file as a formatter writes it: its lines with the comments after them, tables in columns, blank lines only
-// where the author has some, never two of them. What all languages that are written one statement a line have in
-// common; what is on a line is the language's own.
+// where the author has some, never two in a row. Common to all languages with one statement per line; the contents of
+// lines depend on the language.
 #pragma once
 
 #include <cstdint>
@@ -10,29 +10,29 @@
 
 namespace rung::frontend {
 
-/// Lines of up to three cells in columns; one object a kind of lines, which its address names. The last cell of a line
-/// reaches as far as it likes.
+/// Lines of up to three cells in columns; one object for each kind of lines, identified by its address. The last cell
+/// of a line has any length.
 struct Table {
-  size_t second = 0; ///< the least columns of the second and the third cell
+  size_t second = 0; ///< the smallest columns of the second and the third cell
   size_t third = 0;
-  bool alignsThird = true;  ///< or a blank after the second cell where that is longer
-  bool endsAtBlank = false; ///< line; else all of a file without another statement between is one table
+  bool alignsThird = true;  ///< or a blank after the second cell if that is longer
+  bool endsAtBlank = false; ///< line; otherwise all rows of a file without another statement between them are one table
 };
 
 class Page {
 public:
-  /// Line ends and byte order mark become those of `source`. Widths are counted in its characters, or in its bytes
-  /// where it is not UTF-8. Comments after lines begin in `commentColumn` or beyond.
+  /// Line ends and byte order mark are those of `source`. Widths are counted in its characters, or in its bytes if it
+  /// is not UTF-8. Comments after lines begin in `commentColumn` or beyond.
   Page(std::string_view source, size_t commentColumn);
 
-  /// Comments, with their first character, of lines that follow one another are in one column. A line that is only a
-  /// comment, with an empty `text`, continues that of the line above.
+  /// Comments, with their first character, of consecutive lines are in one column. A line that is only a comment, with
+  /// an empty `text`, continues that of the line above.
   void line(std::string text, std::string_view comment = {});
-  /// A line of a table, which comments of their own do not end; all its comments are in one column.
+  /// A line of a table, which separate comments do not end; all its comments are in one column.
   void row(const Table& table, std::vector<std::string> cells, std::string_view comment = {});
-  /// A line, as above, that does not end the table that it is in.
+  /// A line, as above, that does not end the current table.
   void aside(std::string text, std::string_view comment = {});
-  /// A comment on a line of its own, with the blanks before it.
+  /// A comment on a separate line, with the blanks before it.
   void comment(std::string_view text);
   void blank();
 
@@ -43,7 +43,7 @@ public:
 private:
   struct Line {
     const Table* table = nullptr;
-    std::vector<std::string> cells; ///< one where it is not of a table
+    std::vector<std::string> cells; ///< one if it is not part of a table
     std::string comment;
     size_t commentColumn = 0;
     bool aside = false; ///< does not end a table

@@ -1,6 +1,6 @@
-// The row of an instruction: everything about it that is data. A dialect's table is a constexpr array of rows, each
-// with its lowering function beside it; parser, checker, reference pages, `rungc explain` and the table tests read the
-// rows. A new instruction is one row, one lowering function (often shared), one scenario.
+// The row of an instruction: all data about it. A dialect's table is a constexpr array of rows, each with its lowering
+// function; parser, checker, reference pages, `rungc explain` and the table tests use the rows. A new instruction is
+// one row, one lowering function (often shared), one scenario.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace rung::frontend {
 
-// A list of at most N entries that a constexpr row can hold.
+// A list of at most N entries that a constexpr row can contain.
 template <class T, size_t N>
 struct FixedList {
   std::array<T, N> items{};
@@ -29,25 +29,25 @@ struct FixedList {
 
 enum class Access : uint8_t { Read, Write, ReadWrite, None };
 
-// What is done to an operand, in words.
+// The access to an operand, in words.
 constexpr std::string_view nameOf(Access access) {
   constexpr std::string_view kNames[] = {"read", "written", "read and written", "named"};
   return kNames[static_cast<size_t>(access)];
 }
 
-// A kind of operands. Those of a dialect are constexpr objects of a struct derived from this one, which has what the
-// dialect's checks ask for; the rows point to them.
+// A kind of operands. Those of a dialect are constexpr objects of a struct derived from this one, with the properties
+// that the dialect's checks use; the rows point to them.
 struct OperandKindInfo {
   std::string_view name;
-  std::string_view doc;       // what may be written
-  std::string_view good{};    // an operand that is right
-  std::string_view bad{};     // one that is wrong
-  std::string_view badCode{}; // the diagnostic that `bad` raises
-  // Where it is defined: the reference lists the kinds that rows use in the order of their definitions.
+  std::string_view doc;       // what is allowed
+  std::string_view good{};    // a valid operand
+  std::string_view bad{};     // an invalid one
+  std::string_view badCode{}; // the diagnostic that `bad` causes
+  // Line of its definition: the reference lists the kinds that rows use in this order.
   uint32_t line = std::source_location::current().line();
 };
 
-// One operand in the order of the source; min and max bound a constant where min <= max.
+// One operand in the order of the source; min and max bound a constant if min <= max.
 struct OperandInfo {
   std::string_view name;
   const OperandKindInfo* kind = nullptr;
@@ -80,23 +80,23 @@ enum class Placement : uint8_t {
 
 struct InstructionInfo {
   std::string_view mnemonic;
-  FixedList<std::string_view, 3> aliases{}; // spellings that mean the same
+  FixedList<std::string_view, 3> aliases{}; // equivalent spellings
   std::string_view title;                   // a few words
   std::string_view group;                   // category, for the reference
   int number = -1;                          // GSK's function number
-  FixedList<PinInfo, 6> pins{};             // none: it has no place in a ladder
+  FixedList<PinInfo, 6> pins{};             // empty: it cannot be drawn in a ladder
   FixedList<OperandInfo, 8> operands{};
   Output output = Output::None;
   Placement placement = Placement::AfterContact;
-  bool terminating = false;   // TECHNOL: closes the logic equation
-  bool stateful = false;      // keeps something between its runs
-  std::string_view tasks{};   // where it is allowed, empty: everywhere
+  bool terminating = false;   // TECHNOL: ends the logic equation
+  bool stateful = false;      // has state between its runs
+  std::string_view tasks{};   // where it is allowed; empty: everywhere
   std::string_view ref;       // manual: section and line, e.g. "5.7, l.1271"
-  std::string_view doc;       // what it does, in full
+  std::string_view doc;       // full description
   std::string_view example{}; // source text; CONTRIBUTING.md says which names it may use
 };
 
-// A row of a family, whose rows share a shape and differ in their texts and their variant.
+// A row of a family, whose rows have a common shape and differ in their texts and their variant.
 template <class Row>
 constexpr Row rowOf(Row shape, std::string_view mnemonic, std::string_view title, std::string_view ref,
                     std::string_view doc, std::string_view example, int variant = 0) {
@@ -109,12 +109,12 @@ constexpr Row rowOf(Row shape, std::string_view mnemonic, std::string_view title
   return shape;
 }
 
-// The pins of a box below its first, which has the mnemonic.
+// The pins of a box below its first, which is beside the mnemonic.
 constexpr std::span<const PinInfo> furtherPinsOf(const InstructionInfo& info) {
   return info.pins.size() < 2 ? std::span<const PinInfo>() : info.pins.all().subspan(1);
 }
 
-// Whether it is one of a row's aliases; `same` compares as the dialect does.
+// Whether the word is one of a row's aliases; `same` compares as the dialect does.
 template <class Same>
 constexpr bool isAlias(const InstructionInfo& info, std::string_view word, Same same) {
   for (const std::string_view alias : info.aliases.all())

@@ -1,5 +1,5 @@
-// A page of the reference. Dialects and tools give titles, texts and rows; what is a heading, a table or an escaped
-// character in Markdown is known here alone.
+// A page of the reference. Dialects and tools supply titles, texts and rows; only this class knows headings, tables and
+// escaped characters in Markdown.
 #pragma once
 #include <algorithm>
 #include <initializer_list>
@@ -16,7 +16,7 @@
 
 namespace rung::frontend {
 
-// Text of Markdown in lines of at most 100 characters; code spans and blocks of code stay whole.
+// Markdown text in lines of at most 100 characters; code spans and blocks of code are not divided.
 inline std::string wrapped(std::string_view text) {
   constexpr ptrdiff_t kColumns = 100;
   if (text.starts_with("```")) return std::string(text);
@@ -45,8 +45,8 @@ public:
     int level;
     std::string title;
   };
-  // Its text and the head of a table, whose rows follow: columns are "code | meaning", or "|" for two without names.
-  // Without a title it continues the section before. Level 1 is the page itself, 3 a part of a section.
+  // A heading, its text and the head of a table, whose rows follow: columns are "code | meaning", or "|" for two
+  // without names. Without a title it continues the section before. Level 1 is the page itself, 3 a part of a section.
   void section(std::string_view title, std::string_view text, std::string_view columns = {}, int level = 2) {
     if (!text_.empty() && !text_.ends_with("\n\n")) text_ += '\n';
     if (!title.empty()) {
@@ -72,7 +72,7 @@ public:
   const std::vector<Heading>& headings() const { return headings_; }
 
 private:
-  // nullopt: it says nothing.
+  // nullopt: an empty cell.
   template <class Value>
   void cell(const Value& value) {
     if constexpr (!std::is_same_v<Value, std::nullopt_t>) {
@@ -95,7 +95,7 @@ inline std::string pinNames(const InstructionInfo& row) {
   return names;
 }
 
-// What a dialect warns of although the program may be right.
+// Warnings of a dialect about programs that may be right.
 inline void addWarnings(ReferencePage& page, std::initializer_list<Diag> warnings) {
   page.section("Warnings", "All diagnostics: [diagnostics.md](diagnostics.md).", "code | meaning");
   for (const Diag id : warnings) page.row(diagInfo(id).code, diagInfo(id).explanation);

@@ -1,5 +1,5 @@
-// Tables of rows, joined, sorted and checked when they are compiled. Each rule is a static_assert, whose text says it;
-// where a row breaks it, Clang's note "in call to 'keeps(...)'" names the row.
+// Tables of rows, joined, sorted and checked at compile time. Each rule is a static_assert with a descriptive text; if
+// a row violates it, Clang's note "in call to 'keeps(...)'" names the row.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -18,7 +18,7 @@ constexpr std::array<Row, (kCounts + ...)> joinRows(const Row (&... chapters)[kC
   return rows;
 }
 
-// The indices of the rows, sorted by `keyOf` a row; rows of one key stay in their order.
+// The indices of the rows, sorted by `keyOf` of a row; rows with the same key keep their order.
 template <class Row, size_t kCount, class KeyOf>
 constexpr std::array<uint16_t, kCount> orderOf(const std::array<Row, kCount>& rows, KeyOf keyOf) {
   std::array<uint16_t, kCount> order{};
@@ -29,7 +29,7 @@ constexpr std::array<uint16_t, kCount> orderOf(const std::array<Row, kCount>& ro
 
 constexpr auto kMnemonicOf = [](const auto& row) { return row.info.mnemonic; };
 
-// Of each row what `pointTo` gives.
+// For each row, the result of `pointTo`.
 template <class T, class Row, size_t kCount, class PointTo>
 constexpr std::array<const T*, kCount> pointers(const std::array<Row, kCount>& rows, PointTo pointTo) {
   std::array<const T*, kCount> result{};
@@ -69,7 +69,7 @@ consteval bool mnemonicsDiffer(const Rows& rows, const Order& order) {
   return true;
 }
 
-// What holds of the rows of every dialect.
+// Rules for the rows of every dialect.
 template <const auto& kRows>
 consteval bool rowsAreComplete() {
   static_assert(everyRowHas(kRows, &InstructionInfo::mnemonic), "every row has a mnemonic");

@@ -1,4 +1,4 @@
-// Branch weights of ifs from counts (see branch_weights.h).
+// Computes branch weights of ifs from counts (see branch_weights.h).
 #include "ir/analysis/branch_weights.h"
 
 #include <algorithm>
@@ -8,10 +8,10 @@
 namespace rung::ir {
 namespace {
 
-constexpr uint64_t kRare = 10; // of so many at most one
+constexpr uint64_t kRare = 10; // seldom: at most one in this many
 
 BranchWeights weightsOf(const Branch& branch) {
-  if (branch.taken <= branch.reached / kRare) return kSeldom; // one that was never reached, too
+  if (branch.taken <= branch.reached / kRare) return kSeldom; // also if it was never reached
   return branch.reached - branch.taken <= branch.reached / kRare ? kMostly : kEven;
 }
 

@@ -1,4 +1,4 @@
-// How often the branches of a program are taken, as runs of it have shown, and the branch weights of its ifs by that.
+// How often runs of a program have taken its branches, and the branch weights of its ifs that follow from that.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -9,20 +9,20 @@
 
 namespace rung::ir {
 
-// An if of a rung: how often it was reached, and how often its condition was 1 then.
+// An if of a rung: how often it was reached, and how often its condition was 1.
 struct Branch {
   uint64_t reached = 0;
   uint64_t taken = 0;
   bool operator==(const Branch&) const = default;
 };
 
-// By Rung::key, the ifs of a rung as its front end built it, in their order. Rungs of the compiler, without a key, have
-// none.
+// By Rung::key: the ifs of a rung as its front end built it, in their order. Rungs without a key, made by the compiler,
+// are not in it.
 using BranchCounts = std::map<uint64_t, std::vector<Branch>>;
 
 struct BranchWeightsResult {
-  size_t known = 0;   // rungs with ifs whose counts are there
-  size_t unknown = 0; // without: the rung is new, another one now, or was made by another compiler
+  size_t known = 0;   // rungs with ifs whose counts were found
+  size_t unknown = 0; // rungs without counts: new, changed, or made by another compiler
 };
 
 // Sets the branch weights of the ifs of a module that no pass has changed.

@@ -1,4 +1,4 @@
-// Constants first, then what rungs compute from cells with constants alone (see index_values.h).
+// Finds constants, then the values that rungs compute from cells with constants only (see index_values.h).
 #include "ir/analysis/index_values.h"
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 namespace rung::ir {
 namespace {
 
-constexpr size_t kMost = 4; // values of a cell
+constexpr size_t kMost = 4; // most values of a cell
 
 // The cell of a store to a fixed place of an integer.
 bool storesCell(const Op& op) { return op.code == OpCode::Store && isInt(op.type); }
@@ -32,7 +32,7 @@ bool add(std::vector<uint64_t>& values, uint64_t value) {
 void findIndexCells(const Rung& rung, std::vector<Cell>& cells) {
   cells.clear();
   if (std::ranges::none_of(rung.ops, isWindow)) return;
-  std::vector<bool> needed(rung.values.size(), false); // by value: an index is made of it
+  std::vector<bool> needed(rung.values.size(), false); // by value: whether an index depends on it
   const auto need = [&](const Op& op, int operand) { needed[arg(rung, op, operand).index] = true; };
   for (size_t i = rung.ops.size(); i-- > 0;) {
     const Op& op = rung.ops[i];
@@ -51,7 +51,7 @@ void findIndexCells(const Rung& rung, std::vector<Cell>& cells) {
 IndexValues::IndexValues(const Module& module) : module_(module) {
   findCells();
   findConstants();
-  constexpr int kSteps = 3; // from a cell with constants to what is computed of it, and on
+  constexpr int kSteps = 3; // of computation, from a cell with constants to other cells
   for (int step = 0; step < kSteps && derive(); ++step) {
   }
 }
@@ -95,7 +95,7 @@ void IndexValues::findConstants(const Rung& rung) {
   }
 }
 
-// Says whether there is something new.
+// Whether it has found new values.
 bool IndexValues::derive() {
   RungRanges ranges(module_);
   bool isNew = false;
@@ -104,7 +104,7 @@ bool IndexValues::derive() {
   return isNew;
 }
 
-// One rung by itself, with each cell at its n-th value.
+// Evaluates one rung, with each cell at its n-th value.
 bool IndexValues::deriveFrom(const Rung& rung, size_t n, RungRanges& ranges) {
   std::vector<Cell> cells;
   CellRanges held;

@@ -1,5 +1,5 @@
-// Which numbers a program puts into cells that its indices come from: programs call one routine for each unit of a
-// machine, and give it the unit by constants. What is found here is likely and not certain: the caller has to check it.
+// The constants that a program stores in cells used as indices: programs call one routine for each unit of a machine,
+// and pass the unit as a constant. The result is likely, not certain: the caller has to check it.
 #pragma once
 #include <span>
 #include <unordered_map>
@@ -11,20 +11,20 @@
 
 namespace rung::ir {
 
-// Whether an operation accesses a place by an index; whether it is a bit, whose number is the second operand.
+// Whether an operation accesses a place by an index; whether the place is a bit, whose number is the second operand.
 inline bool isWindow(const Op& op) { return opInfo(op.code).attr == Attr::Window; }
 inline bool isOfBit(const Op& op) { return op.code == OpCode::LoadBitAt || op.code == OpCode::StoreBitAt; }
 
-// The cells that windows of a rung get their indices from, each once, in the order of their last use.
+// The cells from which windows of a rung get their indices, each once, in the order of their last use.
 void findIndexCells(const Rung& rung, std::vector<Cell>& cells);
 
 class IndexValues {
 public:
-  // Looks through the whole program.
+  // Searches the whole program.
   explicit IndexValues(const Module& module);
 
-  // In the order of the program; values of one number in several cells belong together. Empty where the program puts
-  // no constants into the cell, or more than a few.
+  // The constants in program order; values of one position for several cells belong together. Empty if the program
+  // stores no constants in the cell, or more than a few.
   std::span<const uint64_t> of(const Cell& cell) const;
 
 private:
@@ -37,7 +37,7 @@ private:
 
   const Module& module_;
   std::unordered_map<uint64_t, std::vector<uint64_t>> values_; // by cell
-  std::vector<const Rung*> storing_;                           // rungs that store one of these, in their order
+  std::vector<const Rung*> storing_;                           // rungs that store one of these, in program order
 };
 
 } // namespace rung::ir

@@ -1,5 +1,5 @@
-// The longest path through the graph of rungs (see longest_path.h), without recursion: a routine may have 50,000 of
-// them.
+// Finds the longest path through the graph of rungs (see longest_path.h), without recursion: a routine may have 50,000
+// rungs.
 #include "ir/analysis/longest_path.h"
 
 #include <algorithm>
@@ -16,14 +16,14 @@ namespace {
 
 struct Place {
   RoutineId routine;
-  uint32_t rung = 0; // in it
+  uint32_t rung = 0; // index in the routine
 };
 
-// From any rung to the end of its run, its routine, or a part of its task.
+// Longest paths from any rung to the end of its run, its routine, or a part of its task.
 class Paths {
 public:
-  // `callees`: the paths through routines that are called; null: these here. Paths end before the chunk `limit` and
-  // those after it.
+  // `callees`: the paths through called routines; null: this object's. Paths end before the chunk `limit` and all later
+  // ones.
   Paths(const Partition& partition, std::span<const uint64_t> costs, Paths* callees, uint32_t limit)
       : partition_(partition), costs_(costs), callees_(callees), limit_(limit),
         marks_(partition.rungCount(), Mark::New), longest_(partition.rungCount(), 0),
@@ -50,7 +50,7 @@ public:
     return longest_[number(start)];
   }
 
-  // The longest path from there, in its routine.
+  // The longest path from there within its routine.
   RoutineWay wayFrom(Place place) {
     RoutineWay way{.routine = place.routine, .cost = from(place), .rungs = {}, .calls = {}};
     for (; place.rung != RUNG_NONE; place.rung = next_[number(place)]) {
@@ -61,20 +61,20 @@ public:
     return way;
   }
 
-  // By number.
+  // Rungs by number.
   const std::vector<std::vector<uint32_t>>& loops() const { return loops_; }
-  // Whether some way from there, which has been measured, comes to a loop.
+  // Whether some path from there, which has been measured, reaches a loop.
   bool leadToCircle(Place place) const { return leadsToCircle_[number(place)] != 0; }
 
 private:
   enum class Mark : uint8_t { New, Open, Done };
-  static constexpr uint32_t kClosed = UINT32_MAX; // a number for `order`: its loop, if it is in one, is known
+  static constexpr uint32_t kClosed = UINT32_MAX; // in `order_`: finished, its loop (if any) is known
 
   uint32_t number(Place place) const { return partition_.rungNumber(place.routine, place.rung); }
   const std::vector<Rung>& rungsOf(RoutineId routine) const { return partition_.module().at(routine).rungs; }
   const Transfer& transferOf(Place place) const { return rungsOf(place.routine)[place.rung].transfer; }
 
-  // The paths from here have to be known first.
+  // The paths from here must be known before the rung is finished.
   void open(Place place) {
     order_[number(place)] = lowest_[number(place)] = opened_++;
     reached_.push_back(number(place));
@@ -86,7 +86,7 @@ private:
     forNext(place, transfer, need);
   }
 
-  // A way that leads back to a rung that is open closes a loop, and ends there.
+  // A path that leads back to an open rung closes a loop, and ends there.
   uint64_t measure(Place place) {
     const Transfer& transfer = transferOf(place);
     uint32_t& best = next_[number(place)];
@@ -103,7 +103,7 @@ private:
     return saturatedSum(most, costs_[number(place)]);
   }
 
-  // Tarjan's components of the graph, of which those with a way back to their rungs are loops.
+  // Finds strongly connected components by Tarjan's algorithm; those with an edge back to their own rungs are loops.
   void closeCircle(Place place) {
     const uint32_t own = number(place);
     const Transfer& transfer = transferOf(place);
@@ -116,7 +116,7 @@ private:
       if (order_[number(next)] != kClosed) lowest_[own] = std::min(lowest_[own], lowest_[number(next)]);
     });
     if (lowest_[own] != order_[own]) return;
-    if (reached_.back() == own && !itself) { // alone
+    if (reached_.back() == own && !itself) { // a single rung
       reached_.pop_back();
       order_[own] = kClosed;
       leadsToCircle_[own] = leads ? 1 : 0;
@@ -133,7 +133,7 @@ private:
     loops_.push_back(std::move(rungs));
   }
 
-  // The rungs of the routine where control may be next, after a call: when it has come back.
+  // The rungs of the routine that control may reach next; for a call, after its return.
   template <class Visit>
   void forNext(Place place, const Transfer& transfer, Visit visit) const {
     const auto go = [&](uint32_t rung) {
@@ -155,17 +155,17 @@ private:
   // By rung number.
   std::vector<Mark> marks_;
   std::vector<uint64_t> longest_;
-  std::vector<uint32_t> next_;   // on the longest path, in the same routine; RUNG_NONE: it ends
-  std::vector<uint32_t> order_;  // in which rungs were opened
-  std::vector<uint32_t> lowest_; // that can be reached and is not in a loop that is known
+  std::vector<uint32_t> next_;   // next rung on the longest path, in the same routine; RUNG_NONE: it ends
+  std::vector<uint32_t> order_;  // order in which rungs were opened
+  std::vector<uint32_t> lowest_; // lowest order that can be reached and is not in a loop found already
   std::vector<uint8_t> leadsToCircle_;
   uint32_t opened_ = 0;
-  std::vector<uint32_t> reached_; // numbers of rungs whose loops are not known yet, as they were opened
+  std::vector<uint32_t> reached_; // rungs whose loops are not known yet, in opening order
   std::vector<std::vector<uint32_t>> loops_;
   std::vector<Place> stack_;
 };
 
-// The longest part of a task, which may be the whole.
+// Finds the longest part of a task, or the path through the whole.
 class TaskPaths {
 public:
   TaskPaths(const Partition& partition, TaskId id, std::span<const uint64_t> costs)
@@ -176,7 +176,7 @@ public:
     else
       searchParts(partition.partEnds(id), costs);
     loops_.insert(loops_.end(), whole_.loops().begin(), whole_.loops().end());
-    std::ranges::sort(loops_); // parts may share one
+    std::ranges::sort(loops_); // parts may share a loop
     const auto same = std::ranges::unique(loops_);
     loops_.erase(same.begin(), same.end());
   }
@@ -185,7 +185,7 @@ public:
   uint32_t part() const { return part_; }
   const std::vector<std::vector<uint32_t>>& loops() const { return loops_; }
 
-  // From the last chunk back to where a loop can be reached.
+  // Searches backward from the last chunk to the first from which a loop can be reached.
   Straight straight() {
     Straight out;
     if (task_.parts > 1) return out;
@@ -204,7 +204,7 @@ public:
   // Each routine before those that it calls.
   std::vector<RoutineWay> routines() {
     std::vector<RoutineWay> paths{longest_ != nullptr ? longest_->wayFrom(start_) : whole_.wayFrom(start_)};
-    std::map<uint32_t, uint32_t> callers; // by routine: calls from those whose place in the list is not known yet
+    std::map<uint32_t, uint32_t> callers; // by routine: calls from routines whose position in the list is not known yet
     std::map<uint32_t, RoutineWay> found;
     std::vector<RoutineId> open = calleesOf(paths[0]);
     while (!open.empty()) {
@@ -233,7 +233,7 @@ private:
     return callees;
   }
 
-  // A part begins at any chunk from the end of the one before it.
+  // A part may begin at any chunk from the end of the one before it.
   void searchParts(std::vector<uint32_t> ends, std::span<const uint64_t> costs) {
     uint32_t begin = 0;
     ends.push_back(RUNG_NONE);
@@ -260,7 +260,7 @@ private:
   const Partition& partition_;
   const Task& task_;
   Paths whole_;
-  std::unique_ptr<Paths> longest_; // of a cut task
+  std::unique_ptr<Paths> longest_; // of a partitioned task
   Place start_;
   uint64_t cost_ = 0;
   uint32_t part_ = 0;

@@ -1,5 +1,5 @@
-// The longest path that control can take through a task: with what a step costs on a machine, the longest that a run
-// may last there. Whatever else rungs cost is added up along paths in the same manner.
+// The longest path that control can take through a task: with the time of a step on a machine, the bound of a run
+// there. Any other cost of rungs is added up along paths in the same way.
 #pragma once
 #include <cstdint>
 #include <span>
@@ -9,40 +9,41 @@
 
 namespace rung::ir {
 
-// The end of a run's loops.
+// Where the loops of a run end.
 struct Straight {
-  uint32_t chunk = RUNG_PC_DONE; // from it on, outside of calls, control goes in no loops; RUNG_PC_DONE: never
+  uint32_t chunk = RUNG_PC_DONE; // from this chunk on, outside of calls, no loops; RUNG_PC_DONE: no such chunk
   uint32_t weight = 0;           // of the longest path from there or from a later chunk, at most UINT32_MAX
 };
 
 struct LongestRun {
   uint32_t weight = 0; // at most the task's budget
-  bool loops = false;  // control may go in loops; the weight is that of a way without the jump that closes one
-  Straight straight;   // a task that is cut has none
+  bool loops = false;  // control may loop; the weight is that of a path without the jumps that close loops
+  Straight straight;   // not set for a partitioned task
 };
 
-// Of a task, or of the longest of its parts where it is cut.
+// Of a task, or of the longest of its parts.
 LongestRun longestRun(const Partition& partition, TaskId task);
 
-// The part of a way that lies in one routine.
+// The part of a path that lies in one routine.
 struct RoutineWay {
   struct Call {
     uint32_t rung = 0;
     RoutineId callee;
   };
   RoutineId routine;
-  uint64_t runs = 1;           // of it on the whole way
-  uint64_t cost = 0;           // of one run, with what it calls
-  std::vector<uint32_t> rungs; // by number, in their order
-  std::vector<Call> calls;     // in their order
+  uint64_t runs = 1;           // executions of the routine on the whole path
+  uint64_t cost = 0;           // of one execution, with its calls
+  std::vector<uint32_t> rungs; // by number, in execution order
+  std::vector<Call> calls;     // in execution order
 };
 
 struct LongestPath {
   uint64_t cost = 0; // UINT64_MAX: at least that
-  uint32_t part = 0; // of a cut task: the longest, from 0
-  // The task's own first, each before those that it calls. Every run of a routine takes the same way.
+  uint32_t part = 0; // of a partitioned task: the longest part, from 0
+  // The task's own routine first, each routine before those that it calls. Every execution of a routine takes the same
+  // path.
   std::vector<RoutineWay> routines;
-  // Rungs among which control may go in loops, by number, ascending.
+  // Sets of rungs among which control may loop, by number, ascending.
   std::vector<std::vector<uint32_t>> loops;
 };
 

@@ -1,4 +1,4 @@
-// Costs of rungs (see rung_costs.h).
+// Computes costs of rungs (see rung_costs.h).
 #include "ir/analysis/rung_costs.h"
 
 #include <algorithm>
@@ -19,11 +19,11 @@ std::vector<uint64_t> byNumber(const Partition& partition, CostOf costOf) {
   return costs;
 }
 
-// The operations of a region so far.
+// The number of operations in a region so far.
 struct Region {
   uint64_t count = 0;
-  uint64_t first = 0;  // of an if: those of the branch before its else
-  uint64_t rounds = 1; // of a loop
+  uint64_t first = 0;  // of an if: number in the branch before its else
+  uint64_t rounds = 1; // of a loop: its iterations
 };
 
 uint64_t mostIn(const Rung& rung, OpCode operation) {

@@ -1,4 +1,4 @@
-// What rungs cost, by their numbers: what paths (longest_path.h) add up.
+// Costs of rungs by their numbers, for paths (longest_path.h) to add up.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -9,7 +9,7 @@ namespace rung::ir {
 
 // The steps that budgets count.
 std::vector<uint64_t> rungWeights(const Partition& partition);
-// How often a run of the rung does the operation at most.
+// The most executions of the operation in one run of each rung.
 std::vector<uint64_t> mostOperations(const Partition& partition, OpCode operation);
 
 } // namespace rung::ir

@@ -1,4 +1,4 @@
-// Where control can go (see rung_graph.h).
+// Builds the control flow graph (see rung_graph.h).
 #include "ir/analysis/rung_graph.h"
 
 namespace rung::ir {

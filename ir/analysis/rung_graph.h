@@ -1,5 +1,5 @@
-// Where control can go: one node a rung, and one after them for the exit of each routine. A call goes to the first
-// rung of the callee, and from its exit to the rung below each call of it; which call it was is not followed.
+// The control flow graph: one node per rung, and after them one for the exit of each routine. A call leads to the first
+// rung of the callee, and the callee's exit to the rung below each of its calls, whichever call it was.
 #pragma once
 #include <span>
 #include <vector>
@@ -24,7 +24,7 @@ private:
 
   std::vector<uint32_t> firstNode_; // by routine
   uint32_t rungCount_ = 0;
-  std::vector<uint32_t> firstFrom_; // by node, and one more: where its predecessors begin in `from_`
+  std::vector<uint32_t> firstFrom_; // by node, plus one entry: where its predecessors begin in `from_`
   std::vector<uint32_t> from_;
 };
 

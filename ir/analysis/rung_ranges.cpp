@@ -1,5 +1,6 @@
-// One rung from top to bottom (see rung_ranges.h). Of an if whose condition is known one region is gone through, else
-// both, and what they leave is joined. A loop's passes are taken together: what it carries or writes may be anything.
+// Evaluates one rung from top to bottom (see rung_ranges.h). For an if with a known condition, one region is evaluated;
+// otherwise both, and the results are joined. The iterations of a loop are taken together: what it carries or writes
+// may have any value.
 #include "ir/analysis/rung_ranges.h"
 
 #include "ir/core/op_info.h"
@@ -30,7 +31,7 @@ void RungRanges::setResults(const Op& op, std::span<const Range> ranges) {
   for (uint32_t k = 0; k < op.resultCount; ++k) set({op.result.index + k}, ranges[k]);
 }
 
-// Gives the last operation that it has dealt with.
+// Returns the last operation that it has evaluated.
 uint32_t RungRanges::visit(uint32_t i) {
   const Op& op = rung_->ops[i];
   switch (op.code) {
@@ -94,7 +95,7 @@ void RungRanges::closeIf(const Op& op) {
   setResults(op, yields);
 }
 
-// What the loop writes is unknown in all of its passes and after them.
+// What the loop writes is unknown in all of its iterations and afterwards.
 void RungRanges::openLoop(uint32_t i) {
   forgetWrites(i, regions_[i].end);
   open_.push_back({.held = *held_, .yields = {}});
@@ -135,7 +136,7 @@ Range RungRanges::load(const Op& op) const {
   return wholeRange(op.type);
 }
 
-// Of what a window covers the part that the index may come to.
+// The part of a window that the index may reach.
 BitRange RungRanges::reachOf(const Op& op, BitRange all) const {
   const Range& index = argOf(op, 0);
   const uint64_t high = std::min<uint64_t>(index.high, op.count - 1);

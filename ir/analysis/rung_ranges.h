@@ -1,4 +1,4 @@
-// What values a rung may compute, when it is known what some cells may hold before it. A cell is a fixed place of an
+// The possible values of a rung's operations, given those of some cells before it. A cell is a fixed place of an
 // integer; no other code writes it while the rung runs.
 #pragma once
 #include <span>
@@ -16,25 +16,25 @@ struct Cell {
   bool operator==(const Cell&) const = default;
 };
 
-// What each cell may hold, in the order of the cells.
+// The range of each cell, in the order of the cells.
 using CellRanges = std::vector<Range>;
 
 class RungRanges {
 public:
   explicit RungRanges(const Module& module) : module_(module) {}
 
-  // `held` says what the cells may hold before the rung, and then what they may hold after it.
+  // `held`: the ranges of the cells before the rung, on return those after it.
   void run(const Rung& rung, std::span<const Cell> cells, CellRanges& held);
 
-  // Of the rung that was run last; every value of the type where control does not come.
+  // Of the last rung; the whole range of the type if control does not reach the value.
   const Range& of(ValueId value) const { return values_[value.index]; }
 
 private:
   // An open region.
   struct Frame {
-    CellRanges held; // if: before it, and from its else on what its first region leaves; loop: what no pass changes
+    CellRanges held; // if: before it, from its else on after its first region; loop: what no iteration changes
     std::vector<Range> yields; // if: of the first region
-    bool decided = false;      // if: one region does not run
+    bool decided = false;      // if: one region never runs
   };
 
   uint32_t visit(uint32_t i);

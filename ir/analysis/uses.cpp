@@ -26,7 +26,7 @@ bool anyMeets(const std::vector<SpaceSpan>& spans, const BitRange& place) {
   return std::ranges::any_of(spans, [&](const SpaceSpan& span) { return overlap(bitsOf(span), place); });
 }
 
-// Of an index or a bit's number: what is there before anything is added at run time.
+// The constant part of an index or a bit's number, to which the rest is added at run time.
 std::optional<int64_t> constantPart(const Rung& rung, std::span<const Op* const> definitions, ValueId value) {
   const Op* op = definitions[value.index];
   if (op == nullptr) return std::nullopt;
@@ -55,7 +55,7 @@ BitRange elementOf(const Module& module, const Rung& rung, std::span<const Op* c
 
 bool isSelect(const Op& op) { return op.code == OpCode::Select; }
 
-// Of each operation whether it loads what a store puts back where a select has nothing else for it.
+// For each operation, whether it loads a value that a store writes back if a select suppresses the new one.
 class KeptLoads {
 public:
   explicit KeptLoads(const Rung& rung) : rung_(rung) {
@@ -90,7 +90,7 @@ private:
   }
 
   const Rung& rung_;
-  std::vector<Users> users_; // by value; empty where the rung has no select
+  std::vector<Users> users_; // by value; empty if the rung has no select
 };
 
 struct UseHash {
@@ -100,7 +100,7 @@ struct UseHash {
   }
 };
 
-// Adds each use once. Among few a look at all is fastest; a long rung has thousands.
+// Adds each use once. For few uses a linear search is fastest; a long rung has thousands.
 class OnceEach {
 public:
   explicit OnceEach(std::vector<RungUse>& list) : list_(list) {}
@@ -109,7 +109,7 @@ public:
     if (list_.size() == kFew && known_.empty()) known_.insert(list_.begin(), list_.end());
     if (list_.size() < kFew ? !contains(list_, use) : known_.insert(use).second) list_.push_back(use);
   }
-  // Of a place that the rung also reads for itself only that is said.
+  // If the rung also reads a place for other purposes, only that use is kept.
   void settle() {
     std::erase_if(list_, [&](const RungUse& use) {
       RungUse plain = use;
@@ -237,7 +237,7 @@ std::vector<uint32_t> Uses::registersFrom(uint32_t rung) const {
   return sources;
 }
 
-// Whether the rung continues, other than below, between `above` (not included) and `upTo`.
+// Whether the rung jumps to a rung after `above` and up to `upTo`.
 bool Uses::jumpsBetween(uint32_t rung, uint32_t above, uint32_t upTo) const {
   return std::ranges::any_of(rungs_[rung].targets, [&](uint32_t target) { return target > above && target <= upTo; });
 }
@@ -245,17 +245,17 @@ bool Uses::jumpsBetween(uint32_t rung, uint32_t above, uint32_t upTo) const {
 std::vector<uint32_t> Uses::decidersOf(uint32_t rung) const {
   std::vector<uint32_t> deciders;
   const uint32_t first = firstOf(rung);
-  uint32_t from = rung; // control comes to the rung from here by falling through
+  uint32_t from = rung; // first rung from which control falls through to `rung`
   for (; from > first; --from) {
     const uint32_t r = from - 1;
     const RungFacts& facts = rungs_[r];
     if (facts.kind == TransferKind::Next || facts.kind == TransferKind::Call) continue;
-    if (facts.kind != TransferKind::Switch && jumpsBetween(r, r, rung)) continue; // it skips what lies ahead of `rung`
+    if (facts.kind != TransferKind::Switch && jumpsBetween(r, r, rung)) continue; // it only skips rungs before `rung`
     if (!facts.conditional) break;
-    if (facts.kind != TransferKind::Goto || facts.targets[0] > r) deciders.push_back(r); // else it is a loop
+    if (facts.kind != TransferKind::Goto || facts.targets[0] > r) deciders.push_back(r); // otherwise it is a loop
   }
   if (from == first) return deciders;
-  // Nothing falls through to here: the jumps to it decide.
+  // Control does not fall through to here: the jumps to it decide.
   for (uint32_t r = rung; r-- > first;)
     if (r < from && jumpsBetween(r, from - 1, rung)) deciders.push_back(r);
   for (uint32_t r = rung + 1; r < rungCount() && rungs_[r].routine == rungs_[rung].routine; ++r)

@@ -1,5 +1,5 @@
-// What each rung of a module reads and writes, and what decides whether it runs: for those who explain a program, not
-// for engines. Made of the module as the front end built it, because passes drop reads that an engine does not need.
+// What each rung of a module reads and writes, and what decides whether it runs: for explaining a program, not for
+// engines. Made from the module as the front end built it, because passes drop reads that an engine does not need.
 // Rungs are numbered over all routines, as in rung_program::rungs.
 #pragma once
 #include <optional>
@@ -10,13 +10,12 @@
 
 namespace rung::ir {
 
-// A use as a rung has it.
+// A use in a rung.
 struct RungUse : Use {
-  // Of a computed one the place where it lies when what is added at run time is 0, as far as the rung says that: of
-  // `X,REG` X. Else `place`.
+  // For a computed place, the place with an index of 0, as far as the rung shows it: X for `X,REG`. Otherwise `place`.
   BitRange element;
-  // Of a read: all that becomes of it is that a write which some condition leaves out puts back what was there. A coil
-  // that sets a bit reads it so, and depends on nothing that it finds there.
+  // For a read: its value is only used to write it back where a condition suppresses a write. A coil that sets a bit
+  // reads it this way, and does not depend on its value.
   bool keeps = false;
   bool operator==(const RungUse&) const = default;
 };
@@ -29,28 +28,28 @@ public:
   // Each use once, in the order of the operations.
   std::span<const RungUse> of(uint32_t rung) const { return rungs_[rung].uses; }
 
-  // Rungs that write something of the place, ascending; those that may, at a computed address, by themselves.
+  // Rungs that write a part of the place, ascending; separately, those that may write it at a computed address.
   struct Writers {
     std::vector<uint32_t> certain;
     std::vector<uint32_t> computed;
     bool none() const { return certain.empty() && computed.empty(); }
   };
   Writers writersOf(const BitRange& place) const;
-  // Where the place's contents come from when a task begins or ends: input latches, images.
+  // The places from which the place is copied when a task begins or ends: input latches, images.
   std::vector<BitRange> copiedFrom(const BitRange& place) const;
-  // Where they go then.
+  // The places to which it is copied then.
   std::vector<BitRange> copiedTo(const BitRange& place) const;
-  // The place that all of it is copied over when a task begins or ends: of an NC's memory the program's own.
+  // The place over which all of it is copied when a task begins or ends: for NC memory, the program's own.
   std::optional<BitRange> copiedWhole(const BitRange& place) const;
-  // Whether a fault clears something of the place: what the control or the machine reads.
+  // Whether a fault clears a part of the place: one that the control or the machine reads.
   bool isCleared(const BitRange& place) const;
-  // Whether something of it is kept through power-off.
+  // Whether a part of it is retained through power-off.
   bool isRetained(const BitRange& place) const;
 
-  // Earlier rungs of the routine that hand a register to this one, the last first. One that calls a routine ends the
-  // list: that routine may have changed the registers.
+  // Earlier rungs of the routine that pass a register to this one, the last first. A rung that calls a routine ends the
+  // list, because that routine may have changed the registers.
   std::vector<uint32_t> registersFrom(uint32_t rung) const;
-  // Rungs of the routine that decide, when they are left, whether this one is passed by; the nearest first.
+  // Rungs of the routine whose transfer decides whether this rung is skipped; the nearest first.
   std::vector<uint32_t> decidersOf(uint32_t rung) const;
   // Rungs that call the rung's routine, ascending.
   std::vector<uint32_t> callersOf(uint32_t rung) const;

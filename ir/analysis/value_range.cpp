@@ -1,4 +1,4 @@
-// Arithmetic of ranges (see value_range.h). Where a sum or a product may wrap around in some cases only, every value of
+// Arithmetic of ranges (see value_range.h). If a sum or a product may wrap around in some cases only, every value of
 // the type is possible.
 #include "ir/analysis/value_range.h"
 
@@ -11,7 +11,7 @@
 namespace rung::ir {
 namespace {
 
-// Bounds before they wrap, of numbers of at most 32 bits.
+// Wraps bounds of numbers of at most 32 bits.
 Range wrapped(int64_t low, int64_t high, Type type) {
   const auto size = static_cast<int64_t>(valueMask(type)) + 1;
   if (low < 0 && high < 0) return {static_cast<uint64_t>(low + size), static_cast<uint64_t>(high + size)};
@@ -37,7 +37,7 @@ Range product(Type type, const Range& a, const Range& b) {
   return {a.low * b.low, a.high * b.high};
 }
 
-// All bits up to the highest that is set in a number.
+// A mask of all bits up to the highest that is set in a number.
 uint64_t bitsBelow(uint64_t number) { return number == 0 ? 0 : ~0ull >> std::countl_zero(number); }
 
 Range shiftedLeft(Type type, const Range& a, uint64_t count) {
@@ -62,7 +62,7 @@ Range lessOrEqual(const Range& a, const Range& b) {
   return a.low > b.high ? kFalse : kEither;
 }
 
-// Signed numbers in the order of unsigned ones; nothing where a range has numbers of both signs.
+// Maps signed numbers to the order of unsigned ones; nothing if the range has numbers of both signs.
 std::optional<Range> signedOrder(Type type, const Range& a) {
   const uint64_t sign = (valueMask(type) >> 1) + 1;
   if ((a.low ^ a.high) & sign) return std::nullopt;
@@ -75,7 +75,7 @@ Range signedCompare(Type type, const Range& a, const Range& b, Range (*compare)(
   return x && y ? compare(*x, *y) : kEither;
 }
 
-// Two that are one number each are evaluated.
+// Two ranges of one number each are evaluated exactly instead.
 Range distinct(const Range& a, const Range& b) { return a.high < b.low || b.high < a.low ? kTrue : kEither; }
 Range like(const Range& a, const Range& b) { return distinct(a, b) == kTrue ? kFalse : kEither; }
 

@@ -1,4 +1,4 @@
-// Unsigned numbers between two bounds: what may be known of a value of a bit or an integer.
+// Ranges of unsigned numbers: what is known about a value of a bit or an integer.
 #pragma once
 #include <algorithm>
 #include <cstdint>
@@ -15,15 +15,15 @@ struct Range {
 
   bool operator==(const Range&) const = default;
   bool isOne() const { return low == high; }
-  // The numbers of both, and those between.
+  // The smallest range that contains both.
   Range joined(const Range& other) const { return {std::min(low, other.low), std::max(high, other.high)}; }
 };
 
-// Every value of a type.
+// All values of a type.
 inline Range wholeRange(Type type) { return {0, valueMask(type)}; }
 
-// Of the result of an operation without effects on bits or integers. `type` is the operation's T, `first` the type of
-// its first operand, `args` are as many as the row says.
+// The range of the result of an operation without effects on bits or integers. `type` is the operation's T, `first` the
+// type of its first operand, the number of `args` is that of the row.
 Range rangeOf(const OpInfo& info, Type type, Type first, const Range* args);
 
 } // namespace rung::ir

@@ -1,4 +1,4 @@
-// When memory was written (see write_times.h).
+// Tracks when memory was written (see write_times.h).
 #include "ir/analysis/write_times.h"
 
 #include <algorithm>
@@ -72,7 +72,7 @@ void WriteTimes::writeWindow(const Op& op, uint32_t time) {
   const uint64_t end = begin + (uint64_t{op.count} - 1) * unit + std::max<uint64_t>(unit, byteWidth(op.type));
   SpaceWrites& writes = writesTo(op.ref);
   const std::span known(writes.window, writes.windows);
-  // Joined with a range that it touches; with the last one where there is no room for another.
+  // Joined with an overlapping or adjacent range, or with the last one if there is no room for another.
   auto with = std::ranges::find_if(known, [&](const WindowWrites& w) { return begin <= w.end && w.begin <= end; });
   if (with == known.end() && writes.windows < std::size(writes.window)) {
     writes.window[writes.windows++] = {time, begin, end};
@@ -82,7 +82,7 @@ void WriteTimes::writeWindow(const Op& op, uint32_t time) {
   *with = {time, std::min(with->begin, begin), std::max(with->end, end)};
 }
 
-// As far as writes through windows go, and all writes for a load through a window.
+// Considers writes through windows, and for a load through a window all writes.
 bool WriteTimes::spaceUnchanged(const Op& op, uint32_t time) const {
   const SpaceWrites& writes = spaces_[op.ref];
   if (writes.rung != rung_) return true;

@@ -1,5 +1,5 @@
-// When a rung last wrote to which memory, and so whether a value that a place held at some time is still there. Times
-// are numbers of operations, counted from 1. Fixed places are followed bit by bit, windows as a few ranges a space.
+// When a rung last wrote which memory, and so whether a value that a place held at some time is still valid. Times are
+// numbers of operations, counted from 1. Fixed places are tracked bit by bit, windows as a few ranges per space.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -15,14 +15,14 @@ public:
   void start(const Rung& rung);
   // `op` writes: a store of any kind.
   void write(const Op& op, uint32_t time);
-  // Something may be written anywhere.
+  // Any memory may have been written.
   void writeAll(uint32_t time) { all_ = time; }
-  // Whether nothing has written since `time` to what `op` (a load or store of any kind) reads or writes.
+  // Whether the place that `op` (a load or store of any kind) accesses has not been written since `time`.
   bool unchanged(const Op& op, uint32_t time) const;
 
 private:
   struct Place {
-    uint64_t firstByte; // with the space; slots have one of their own
+    uint64_t firstByte; // with the number of the space; slots count as a separate space
     uint32_t bytes;
     int bit; // -1: whole bytes
   };
@@ -32,13 +32,13 @@ private:
     uint32_t anyBit;
     uint32_t bit[8];
   };
-  // The last write through windows that lie within these bytes.
+  // The last write through windows within these bytes.
   struct WindowWrites {
     uint32_t time = 0;
     uint64_t begin = 0;
     uint64_t end = 0;
   };
-  // Writes through windows; forgotten when `rung` is not the current one.
+  // Writes through windows; invalid if `rung` is not the current one.
   struct SpaceWrites {
     uint32_t rung = 0;
     uint32_t any = 0; // of any kind

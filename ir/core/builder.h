@@ -1,5 +1,5 @@
-// Builds one rung, operation by operation. It types results by the table of operations and stops the process when an
-// operand has the wrong type: that is an error of the compiler, never of the user's program.
+// Builds one rung, operation by operation. Results get their types from the table of operations; an operand of a wrong
+// type stops the process: it is an error of the compiler, never of the user's program.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -21,8 +21,8 @@ struct Place {
   uint32_t bit = 0;
 };
 
-// Elements of a space that a computed index may reach: element 0 lies at `byte`, one element a unit of the space.
-// `count` elements are legal indices; each must lie wholly in the space at the width of the access.
+// Elements of a space that a computed index may reach: element 0 is at `byte`, each has one unit of the space. Indices
+// below `count` are legal; each element must be within the space at the width of the access.
 struct Window {
   SpaceId space;
   uint32_t byte = 0;
@@ -31,13 +31,13 @@ struct Window {
 
 class RungBuilder {
 public:
-  // `rung` and `module` outlive the builder; the rung starts empty.
+  // `rung` and `module` must outlive the builder; the rung must be empty.
   RungBuilder(const Module& module, Rung& rung) : module_(module), rung_(rung) {}
 
   Rung& rung() { return rung_; }
   const Module& module() const { return module_; }
   Type typeOf(ValueId value) const { return ir::typeOf(rung_, value); }
-  // The source line of the operations that follow; 0: the rung's own.
+  // The source line of the operations that follow; 0: that of the rung.
   void setLine(uint32_t line) { line_ = line; }
 
   ValueId constant(Type type, int64_t value);
@@ -87,7 +87,8 @@ public:
   ValueId bitsToF(ValueId bits);
   ValueId fToBits(ValueId real);
   ValueId intToF(ValueId integer);
-  // To `type` by zext, sext or trunc as the widths say; the value itself when it has the type already.
+  // Converts to `type` by zext, sext or trunc, depending on the widths; returns the value itself if it has the type
+  // already.
   ValueId zextOrTrunc(Type type, ValueId a);
   ValueId sextOrTrunc(Type type, ValueId a);
 
@@ -101,19 +102,19 @@ public:
   void slotStore(SlotId slot, ValueId value);
   ValueId now();
 
-  // Regions. `yields` of both branches must agree in number and types; endIf gives the results. `branchWeights`: of the
-  // condition.
+  // Regions. `yields` of both branches must agree in number and types; endIf returns the results. `branchWeights`: of
+  // the condition.
   void if_(ValueId cond, BranchWeights branchWeights = kEven);
   void else_(std::span<const ValueId> yields = {});
   std::vector<ValueId> endIf(std::span<const ValueId> yields = {});
-  // `body` adds the operations of a region without results. An invalid condition: they always run.
+  // `body` adds the operations of a region without results. With an invalid condition they always run.
   template <class Body>
   void when(ValueId cond, Body body, BranchWeights branchWeights = kEven) {
     if (cond.valid()) if_(cond, branchWeights);
     body();
     if (cond.valid()) endIf();
   }
-  // The same, with other operations where the condition is 0.
+  // The same, with other operations for a condition of 0.
   template <class Yes, class No>
   void when(ValueId cond, Yes yes, No no) {
     if_(cond);
@@ -122,8 +123,8 @@ public:
     no();
     endIf();
   }
-  // Each branch adds its operations and gives its value, or a std::array or a struct of nothing but values; gives that
-  // of the branch which runs.
+  // Each branch adds its operations and returns its value, or a std::array or a struct of values only; returns those of
+  // the branch that runs.
   template <class Yes, class No>
   auto choose(ValueId cond, Yes yes, No no, BranchWeights branchWeights = kEven) {
     using Result = decltype(yes());
@@ -136,7 +137,7 @@ public:
     std::ranges::copy(endIf(others), values.begin());
     return std::bit_cast<Result>(values);
   }
-  // Gives the pass number (i32) and then the carried values.
+  // Returns the number of the iteration (i32), then the carried values.
   std::vector<ValueId> loop(uint32_t count, std::span<const ValueId> carried = {});
   std::vector<ValueId> endLoop(std::span<const ValueId> next = {});
 

@@ -1,4 +1,4 @@
-// The evaluator of operations without effects (see eval.h).
+// Evaluates operations without effects (see eval.h).
 #include "ir/core/eval.h"
 
 #include "ir/core/op_info.h"
@@ -26,7 +26,7 @@ uint64_t bitsOf(T value) {
     return static_cast<uint64_t>(value);
 }
 
-// Calls f with a zero of the C++ type of `type`, which is one of `Types`.
+// Calls f with a zero of the C++ type of `type`, which must be in `Types`.
 template <TypeSet Types, class F>
 uint64_t withType(Type type, F f) {
   if constexpr (contains(Types, Type::Bit))
@@ -47,7 +47,7 @@ uint64_t withType(Type type, F f) {
 
 // ---- operands, by the signature of the row -----------------------------------------------------------------------
 
-// What an operation has: the zero of its type T says which C++ type that is.
+// Operands of an operation: a zero of its type T selects the C++ type.
 struct Input {
   const uint64_t* bits;
   Type first; // of the first operand

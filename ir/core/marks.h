@@ -1,7 +1,7 @@
-// What a rung asks and what it decides, as its author wrote it: which value is a contact and which is the power into a
-// coil. Front ends note it where coverage asks for it (frontend::CompileOptions::marks), beside the module: no
-// operation is added. Passes that change rungs make marks meaningless, so they go with a module as it was built (and
-// put in order).
+// The conditions of a rung and its outputs, as its author wrote them: which value is a contact and which is the power
+// into a coil. Front ends record them for coverage (frontend::CompileOptions::marks), beside the module: no operation
+// is added. Passes that change rungs invalidate marks, so they are valid only for a module as built (and with its
+// operations ordered).
 #pragma once
 #include <map>
 #include <span>
@@ -14,10 +14,10 @@
 namespace rung::ir {
 
 enum class MarkKind : uint8_t {
-  Contact, // the value says whether it conducts
-  Result,  // of a box or an instruction that is not logic of the rung's contacts; decides as a contact does
+  Contact, // the value is 1 if it conducts
+  Result,  // of a box or an instruction other than logic of the rung's contacts; decides like a contact
   Coil,    // the value is the power into it
-  Input,   // of a box or an instruction: decided as a coil is
+  Input,   // of a box or an instruction: decided like a coil
 };
 
 struct Mark {
@@ -47,17 +47,17 @@ private:
   std::map<std::pair<uint32_t, uint32_t>, std::vector<Mark>> marks_;
 };
 
-// Numbers in the rungs of a module that are not what their author wrote: where the compiler has put a variable, in
-// which line an instruction is written. Front ends note them where two versions of a program are compared
+// Numbers in the rungs of a module that their author did not write: where the compiler has placed a variable, or in
+// which line an instruction is. Front ends record them for comparisons of two versions of a program
 // (frontend::CompileOptions::given), beside the module as marks are (marks.h).
 
 struct GivenNumber {
   ValueId value;        // a constant of the rung
-  SpaceId space;        // of an address; invalid: a line, the size or the number of a space, or a routine
-  uint32_t byte = 0;    // where the variable begins that it is an address in
+  SpaceId space;        // of an address; invalid: the number is a line, the size or the number of a space, or a routine
+  uint32_t byte = 0;    // beginning of the variable that contains the address
   int64_t distance = 0; // from there, in bytes
-  uint32_t bit = 0;     // of the byte there
-  RoutineId routine{};  // whose number it is; invalid: none
+  uint32_t bit = 0;     // number of the bit in the byte
+  RoutineId routine{};  // the routine with this number; invalid: not a routine's number
   bool operator==(const GivenNumber&) const = default;
 };
 

@@ -1,4 +1,4 @@
-// Places of operations (see memory_use.h).
+// Determines the places of operations (see memory_use.h).
 #include "ir/core/memory_use.h"
 
 #include <algorithm>
@@ -23,7 +23,7 @@ std::optional<Use> useOf(const Module& module, const Op& op) {
   const auto first = static_cast<uint32_t>(op.imm);
   const bool window = info.attr == Attr::Window;
   const uint32_t one = std::max(bitWidth(op.type), window ? space.unitBytes * 8 : 1u);
-  // Elements begin a unit apart; the last one may reach over the next.
+  // Elements are one unit apart; the last one may extend beyond it.
   const uint64_t all = window && op.count > 1 ? one + uint64_t{op.count - 1} * space.unitBytes * 8 : one;
   const uint64_t room = uint64_t{bytesOf(space)} * 8 - first;
   Use use;

@@ -1,4 +1,4 @@
-// What an operation reads or writes of the program's spaces.
+// Memory that an operation reads or writes in the program's spaces.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -19,14 +19,14 @@ inline BitRange bitsOf(const SpaceSpan& span) { return {span.space, span.byte * 
 inline BitRange targetOf(const Copy& copy) { return bitsOf({copy.to, copy.toByte, copy.from.size}); }
 
 struct Use {
-  BitRange place; // computed: all that the address can reach
+  BitRange place; // computed: everything that the address can reach
   Type type = Type::Bit;
   bool writes = false;
-  bool computed = false; // somewhere in `place`, at an address that is computed
+  bool computed = false; // somewhere in `place`, at a computed address
   bool operator==(const Use&) const = default;
 };
 
-// What an operation touches; nothing when it touches no memory.
+// The memory that an operation accesses; nothing if it accesses none.
 std::optional<Use> useOf(const Module& module, const Op& op);
 
 template <class Visit>

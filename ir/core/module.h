@@ -1,6 +1,6 @@
-// The module: everything that the engines know of a program. Plain data; built with builder.h, checked by ir/verify.
+// The module: everything that engines know about a program. Plain data; built with builder.h, checked by ir/verify.
 //
-// Invariants (ir/verify holds them): ids are in range; a rung's values are defined before use and never cross the rung;
+// Invariants (checked by ir/verify): ids are in range; a rung's values are defined before use and never cross the rung;
 // regions (if/else/endif, loop/endloop) nest; routines do not call each other in a loop; every operation is total.
 #pragma once
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace rung::ir {
 
-// Where a rung or an operation comes from. Line 0: unknown.
+// Source position of a rung or an operation. Line 0: unknown.
 struct Location {
   FileIndex file;
   uint32_t line = 0;
@@ -38,15 +38,15 @@ struct Op {
 
 enum class TransferKind : uint8_t {
   Next,   // the rung below
-  Goto,   // rung `target` of the same routine, when `cond`
-  Call,   // routine `callee`, when `cond`; then the rung below
-  Ret,    // back to the caller, when `cond`; at the outermost level the task's run ends
-  End,    // the task's run ends, when `cond`
+  Goto,   // if `cond`, rung `target` of the same routine
+  Call,   // if `cond`, routine `callee`; then the rung below
+  Ret,    // if `cond`, back to the caller; at the outermost level the task's run ends
+  End,    // if `cond`, the task's run ends
   Switch, // rung targets[value]; a value outside goes to targets[0]
 };
 
-// How a rung is left. Where `cond` is invalid the transfer is unconditional, else the rung below follows when it is 0.
-// Falling off the last rung of a routine returns.
+// How control leaves a rung. Unconditional if `cond` is invalid; otherwise the rung below follows if `cond` is 0. After
+// the last rung of a routine control returns.
 struct Transfer {
   TransferKind kind = TransferKind::Next;
   ValueId cond{};  // bit
@@ -57,7 +57,7 @@ struct Transfer {
   bool operator==(const Transfer&) const = default;
 };
 
-// Where the front end had a rung.
+// Where a rung was when the front end built it.
 struct Origin {
   std::string routine;
   uint32_t index = RUNG_NONE; // over all routines, as in rung_program::rungs
@@ -71,15 +71,15 @@ struct Rung {
   Location begin;
   uint32_t lastLine = 0;
   uint64_t key = 0;    // stable while the rung's text is unchanged (rungKey in rung/types.hpp)
-  uint32_t copy = 0;   // rungs before it in its routine with the same text: in the key
-  uint32_t weight = 1; // steps, as the dialect counts them
+  uint32_t copy = 0;   // number of earlier rungs in its routine with the same text: part of the key
+  uint32_t weight = 1; // in steps, as the dialect counts them
   std::vector<Op> ops;
   std::vector<ValueId> args; // operands of all ops
   std::vector<Type> values;  // type of each value
   std::vector<std::string> notes;
   Transfer transfer;
   uint32_t transferLine = 0; // source line of the transfer; 0: the first line of the rung
-  Origin origin;             // of all rungs where a pass has moved some, else of none
+  Origin origin;             // set for all rungs once a pass has moved some, otherwise for none
 };
 
 struct Routine {
@@ -87,7 +87,7 @@ struct Routine {
   std::vector<Rung> rungs; // at least one
 };
 
-// The routine that the source has the rung in; `routine` has it now.
+// The routine of the rung in the source; `routine` contains it now.
 inline const std::string& homeOf(const Routine& routine, const Rung& rung) {
   return rung.origin.index == RUNG_NONE ? routine.name : rung.origin.routine;
 }
@@ -100,26 +100,26 @@ struct Space {
   bool packedOnly = false; // the host or a copy needs the dialect's own packing
 };
 
-// State made by the compiler. `key` is stable over edits elsewhere, for hot reload.
+// State made by the compiler. `key` does not change with edits elsewhere in the program, for hot reload.
 struct Slot {
   Type type = Type::Bit;
   int64_t init = 0;
-  bool transient = false; // a register between rungs: meaningless before the first store of a run
+  bool transient = false; // a register between rungs: undefined before the first store of a run
   std::string key;
 };
 
-// A cell of 32 bits that says where a mechanism continues: a slot, or a hidden symbol's. Its value v means points[v]; 0
-// is the beginning. Keys are those of the slot or the symbol, and of the places in the program; these stay the same as
-// long as the instruction does.
+// A cell of 32 bits that determines where a mechanism continues: a slot, or a hidden symbol's. The value v means
+// points[v]; 0 is the beginning. Keys are those of the slot or symbol, and of the places in the program; they do not
+// change as long as the instruction does not.
 struct Continuation {
   std::string key;
-  SlotId slot; // invalid: in the space
+  SlotId slot; // invalid: the cell is in the space
   SpaceId space;
   uint32_t byte = 0;
-  std::vector<std::string> points; // each differs from the others
+  std::vector<std::string> points; // all different
 };
 
-// The enum rung_type of a type; None is the byte that a name without a type names.
+// The enum rung_type of a type; for None that of a byte, which a name without a type names.
 constexpr uint32_t abiType(Type type) {
   constexpr uint32_t kTypes[kTypeCount] = {RUNG_TYPE_I8,  RUNG_TYPE_BIT, RUNG_TYPE_I8, RUNG_TYPE_I16,
                                            RUNG_TYPE_I32, RUNG_TYPE_I64, RUNG_TYPE_F64};
@@ -138,7 +138,7 @@ struct Symbol {
   int64_t value = 0;
 };
 
-// A piece of a space, in bytes.
+// A range of a space, in bytes.
 struct SpaceSpan {
   SpaceId space;
   uint32_t byte = 0;
@@ -168,9 +168,9 @@ struct Task {
   FaultId budgetFault;
   std::vector<Copy> begin;
   std::vector<Copy> end;
-  uint32_t parts = 1; // of a run; cutTask (parts.h) sets this and `borders`
-  // Rungs of the entry that begin parts 2, 3, …, ascending. Passes leave them alone: what a part does is the program's
-  // meaning, not the optimiser's. Parts without a border are empty.
+  uint32_t parts = 1; // parts of a run; set by cutTask (parts.h), as are `borders`
+  // Rungs of the entry routine that begin parts 2, 3, …, ascending. Passes do not change them, because the contents of
+  // a part belong to the meaning of the program. Parts without a border are empty.
   std::vector<uint32_t> borders;
 };
 
@@ -187,7 +187,7 @@ struct MessageText {
 
 struct Module {
   std::string name;
-  std::string dialect; // only to be printed
+  std::string dialect; // for output only
   std::vector<std::string> files;
   std::vector<Space> spaces;
   std::vector<Slot> slots;
@@ -213,11 +213,11 @@ struct Module {
   const Routine& at(RoutineId id) const { return routines[id.index]; }
 };
 
-// Ids by name, invalid when there is none; linear, for front ends and tests.
+// Ids by name, invalid if there is none; linear, for front ends and tests.
 SpaceId findSpace(const Module& module, std::string_view name);
 RoutineId findRoutine(const Module& module, std::string_view name);
 TaskId findTask(const Module& module, std::string_view name);
-// The routines that a run may come to which begins with this one: itself first, each once.
+// All routines that a run of this one may reach, itself first, each once.
 std::vector<RoutineId> routinesFrom(const Module& module, RoutineId entry);
 // Symbols of places in memory, not of constants: the author's first, then hidden ones.
 std::vector<const Symbol*> placedSymbols(const Module& module);

@@ -1,15 +1,15 @@
-// The code of an operation, for those who hand it on: a new operation then does not compile them again. A file that
-// names operations includes ops.h.
+// The code of an operation as an incomplete enumeration, for files that only pass codes on: they are not recompiled for
+// a new operation. A file that names operations includes ops.h.
 #pragma once
 #include <cstdint>
 
 namespace rung::ir {
 
-enum class OpCode : uint8_t; // those of ops.def
+enum class OpCode : uint8_t; // enumerators from ops.def
 
-// How often the condition of an if is 1 where it is reached. Only the order of the code depends on it.
+// How often the condition of an if is 1 when it is reached. Only the layout of the code depends on it.
 enum BranchWeights : uint8_t {
-  kEven = 0, // nothing is known
+  kEven = 0, // unknown
   kMostly = 1,
   kSeldom = 2,
 };

@@ -1,6 +1,6 @@
-// The table of operations (ops.def) as data: what each takes, gives and does. Verifier, printer, parser, builder, docs
-// and the random generator read it. Interpreter and back ends treat all value operations by their row, and switch over
-// the others without a default, so that a new one stops the build where it is missing.
+// The table of operations (ops.def) as data: the operands, results and effects of each. Used by verifier, printer,
+// parser, builder, docs and the random generator. Interpreter and back ends treat all value operations by their row,
+// and switch over the others without a default, so that the build fails where a new one is missing.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -14,7 +14,7 @@ namespace rung::ir {
 
 // What an operand or the result must be, in terms of the operation's own type T (`Op::type`).
 enum class Constraint : uint8_t {
-  None,     // not there
+  None,     // no operand or result
   Same,     // T
   Bit,      // bit
   I32,      // i32
@@ -24,15 +24,15 @@ enum class Constraint : uint8_t {
   Wider,    // an integer wider than T
   AnyInt,   // any integer type but bit
   Any,      // any type
-  Variadic, // last entry only: any number of operands, each of any type
+  Variadic, // last entry only: any number of operands of any types
 };
 
-// What follows the operands, and which fields of Op carry it.
+// What follows the operands, and in which fields of Op.
 enum class Attr : uint8_t {
   None,
   Literal,       // imm: the constant's bits
   Place,         // ref: space, imm: bit offset of the accessed bit or first byte in the space
-  Window,        // ref: space, imm: bit offset of element 0, count: elements that may be addressed
+  Window,        // ref: space, imm: bit offset of element 0, count: number of addressable elements
   Slot,          // ref: slot
   Count,         // count: iterations
   MessageOp,     // ref: enum rung_message_op
@@ -50,7 +50,7 @@ enum Effect : uint8_t {
   kTraps = 4,      // may leave the rung
   kHost = 8,       // calls the host; order matters
   kStructure = 16, // opens, divides or closes a region
-  kClock = 32,     // fixed within a scan
+  kClock = 32,     // reads the clock, which is constant within a scan
 };
 
 using Operands = std::array<Constraint, 4>;
@@ -63,14 +63,14 @@ constexpr uint8_t countFixed(const Operands& operands) {
 struct OpInfo {
   OpCode code;
   std::string_view name;
-  TypeSet types; // legal T; kNoTypes where the operation has no type
+  TypeSet types; // legal T; kNoTypes for an operation without a type
   Operands operands;
   Constraint result;
   Attr attr;
   uint8_t effects;                      // Effect
   std::string_view function;            // of sem.hpp, with `T` for the type; empty: not a value operation
-  std::string_view doc;                 // one or two sentences, with the result of every odd input
-  uint8_t fixed = countFixed(operands); // without a Variadic one
+  std::string_view doc;                 // one or two sentences, with the result of every unusual input
+  uint8_t fixed = countFixed(operands); // number of operands, not counting a Variadic one
 };
 
 // In the order of OpCode; use `opInfo`.
@@ -78,7 +78,7 @@ extern const OpInfo kOpRows[];
 
 inline const OpInfo& opInfo(OpCode code) { return kOpRows[static_cast<int>(code)]; }
 std::span<const OpInfo> allOps();
-// Null when there is no operation of this name.
+// Null if there is no operation of this name.
 const OpInfo* findOp(std::string_view name);
 
 constexpr bool isVariadic(const OpInfo& info) {
@@ -103,7 +103,7 @@ constexpr bool satisfies(Constraint constraint, Type own, Type actual) {
   }
   return false;
 }
-// The type of a result; None where there is none or the row does not fix it.
+// The type of a result; None if there is no result or the row does not determine its type.
 constexpr Type resultType(Constraint constraint, Type own) {
   switch (constraint) {
   case Constraint::Bit: return Type::Bit;
@@ -120,12 +120,12 @@ constexpr Type resultType(Constraint constraint, Type own) {
   }
   return Type::None;
 }
-// Whether the host may look at memory meanwhile: every store above must have been done, and none below.
+// Whether the host may read memory meanwhile: all stores above must have been executed, and none below.
 constexpr bool hostReads(const OpInfo& info) { return (info.effects & kHost) != 0 && (info.effects & kReads) != 0; }
 constexpr bool isPure(const OpInfo& info) { return info.effects == kPure || info.effects == kClock; }
-// Whether it is a value operation: evalPure knows it, as its value depends on nothing but its operands.
+// Whether it is a value operation, which evalPure computes: its value depends on its operands only.
 constexpr bool isEvaluable(const OpInfo& info) { return !info.function.empty(); }
-// Nothing but reading to do for the result.
+// Whether it does nothing but read for its result.
 constexpr bool onlyReads(const OpInfo& info) { return isPure(info) || info.effects == kReads; }
 
 } // namespace rung::ir

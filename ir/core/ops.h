@@ -1,5 +1,5 @@
-// The names of operations. A file that includes this is compiled again for every new operation; one that only passes
-// codes on includes op_code.h, and one that asks what an operation does includes op_info.h.
+// The names of operations. A file that includes this is recompiled for every new operation; one that only passes codes
+// on includes op_code.h, and one that needs the properties of an operation includes op_info.h.
 #pragma once
 #include <cstdint>
 

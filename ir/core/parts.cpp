@@ -1,4 +1,4 @@
-// The cut into parts (see parts.h).
+// Partitions a run into parts (see parts.h).
 #include "ir/core/parts.h"
 
 #include <algorithm>
@@ -11,7 +11,7 @@ bool sameSource(const Rung& a, const Rung& b) {
          a.begin.column == b.begin.column;
 }
 
-// Weights of routines with all that they call, each counted once a call.
+// Weights of routines with everything that they call, counted once per call.
 class Weights {
 public:
   explicit Weights(const Module& module) : module_(module), known_(module.routines.size()) {}
@@ -19,7 +19,7 @@ public:
   std::vector<PartPiece> pieces(RoutineId routine) {
     std::vector<PartPiece> result;
     const std::vector<Rung>& rungs = module_.at(routine).rungs;
-    uint64_t own = 0; // the greatest weight among rungs of one place: that of the source's rung
+    uint64_t own = 0; // the largest weight among rungs of one position, which is that of the source's rung
     for (uint32_t i = 0; i < rungs.size(); ++i) {
       const bool joins = i > 0 && sameSource(rungs[i - 1], rungs[i]);
       const bool closes = i > 0 && i + 1 == rungs.size() && rungs[i].ops.empty();
@@ -38,7 +38,7 @@ private:
   uint64_t called(RoutineId routine) {
     if (known_[routine.index]) return weights_[routine.index];
     weights_.resize(known_.size());
-    known_[routine.index] = true; // a recursion counts as nothing
+    known_[routine.index] = true; // a recursive call has no weight
     uint64_t sum = 0;
     for (const PartPiece& piece : pieces(routine)) sum += piece.weight;
     return weights_[routine.index] = std::min<uint64_t>(sum, UINT32_MAX);
@@ -49,14 +49,14 @@ private:
   std::vector<uint64_t> weights_;
 };
 
-// Sums of the first pieces: [i] is the weight before piece i.
+// Prefix sums: [i] is the weight of all pieces before piece i.
 std::vector<uint64_t> sumsOf(const std::vector<PartPiece>& pieces) {
   std::vector<uint64_t> sums{0};
   for (const PartPiece& piece : pieces) sums.push_back(sums.back() + piece.weight);
   return sums;
 }
 
-// The last border that a part from `first` with at most `most` can end at; at least one piece.
+// The last border at which a part from `first` of weight at most `most` can end; at least one piece.
 uint32_t reach(const std::vector<uint64_t>& sums, uint32_t first, uint64_t most) {
   const auto end = std::upper_bound(sums.begin() + first, sums.end(), sums[first] + most);
   return std::max(first + 1, static_cast<uint32_t>(end - sums.begin()) - 1);
@@ -68,7 +68,7 @@ uint32_t countParts(const std::vector<uint64_t>& sums, uint64_t most) {
   return count;
 }
 
-// The least possible weight of the longest part.
+// The smallest possible weight of the longest part.
 uint64_t leastLongest(const std::vector<PartPiece>& pieces, const std::vector<uint64_t>& sums, uint32_t parts) {
   uint64_t low = 0;
   for (const PartPiece& piece : pieces) low = std::max(low, piece.weight);
@@ -83,14 +83,14 @@ uint64_t leastLongest(const std::vector<PartPiece>& pieces, const std::vector<ui
   return low;
 }
 
-// For every border the first place from which the parts after it can hold the rest.
+// For every border the first position from which the later parts can hold the rest.
 std::vector<uint32_t> earliestBorders(const std::vector<uint64_t>& sums, uint32_t parts, uint64_t most) {
   std::vector<uint32_t> earliest(parts - 1);
   auto end = static_cast<uint32_t>(sums.size()) - 1;
   for (uint32_t k = parts - 1; k-- > 0;) {
     const uint64_t from = sums[end] > most ? sums[end] - most : 0;
     const auto first = static_cast<uint32_t>(std::lower_bound(sums.begin(), sums.end(), from) - sums.begin());
-    end = earliest[k] = std::max(first, k + 1); // a piece for every part before
+    end = earliest[k] = std::max(first, k + 1); // a piece for every earlier part
   }
   return earliest;
 }
@@ -109,9 +109,9 @@ std::vector<uint32_t> cutParts(const std::vector<PartPiece>& pieces, uint32_t pa
   const std::vector<uint32_t> earliest = earliestBorders(sums, parts, most);
   uint32_t begin = 0;
   for (uint32_t k = 1; k < parts; ++k) {
-    const uint32_t last = std::min(reach(sums, begin, most), count - (parts - k)); // a piece for every part after
+    const uint32_t last = std::min(reach(sums, begin, most), count - (parts - k)); // a piece for every later part
     uint32_t border = std::max(earliest[k - 1], begin + 1);
-    const auto distance = [&](uint32_t b) { // to the share, times `parts`
+    const auto distance = [&](uint32_t b) { // to the border's share, times `parts`
       const uint64_t here = sums[b] * parts;
       const uint64_t share = sums.back() * k;
       return here > share ? here - share : share - here;

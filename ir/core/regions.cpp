@@ -1,4 +1,4 @@
-// Pairing what opens a region with what closes it.
+// Pairs the operations that open and close regions.
 #include "ir/core/regions.h"
 
 #include "ir/core/op_info.h"
@@ -27,12 +27,12 @@ bool findRegions(const Rung& rung, std::vector<Region>& regions) {
   return any;
 }
 
-// What operations have computed and another stretch uses. Numbers and what is read are in no chain.
+// Results of operations that another stretch uses. Constants and loads are not part of a chain.
 std::vector<bool> valuesThroughMemory(const Rung& rung) {
   if (!isLong(rung)) return {};
   constexpr size_t kNone = ~size_t{0};
   std::vector<bool> through(rung.values.size());
-  std::vector<size_t> stretches(rung.values.size(), kNone); // by value, where it is computed
+  std::vector<size_t> stretches(rung.values.size(), kNone); // by value: the stretch that computes it
   for (size_t i = 0; i < rung.ops.size(); ++i) {
     const Op& op = rung.ops[i];
     for (uint32_t k = 0; k < op.argCount; ++k) {

@@ -1,4 +1,4 @@
-// The types of IR values. Signedness is in the operation; texts are ranges of a space, never values.
+// The types of IR values. Signedness belongs to the operation; texts are ranges of a space, never values.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -16,7 +16,7 @@ constexpr uint32_t bitWidth(Type type) {
   constexpr uint32_t kWidths[kTypeCount] = {0, 1, 8, 16, 32, 64, 64};
   return kWidths[static_cast<int>(type)];
 }
-// Bytes in memory; a Bit has no bytes of its own.
+// Bytes in memory; 0 for a Bit.
 constexpr uint32_t byteWidth(Type type) { return bitWidth(type) / 8; }
 constexpr bool isInt(Type type) { return type >= Type::I8 && type <= Type::I64; }
 constexpr std::string_view typeName(Type type) {
@@ -53,7 +53,7 @@ inline constexpr TypeSet kIntsAndFloat = kInts | kFloat;
 inline constexpr TypeSet kI64 = setOf(Type::I64);
 inline constexpr TypeSet kBitToI32 = kBitsAndInts & static_cast<TypeSet>(~kI64);
 
-// Typed indices of the IR: what refers to what. An id is an index into one vector of its owner, never a pointer.
+// Typed indices of the IR. An id is an index in one vector of its owner, never a pointer.
 
 using SpaceId = Id<struct SpaceTag>;     // in Module::spaces
 using SlotId = Id<struct SlotTag>;       // in Module::slots

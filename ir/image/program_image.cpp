@@ -1,4 +1,4 @@
-// The tables of a program, filled and joined.
+// Fills and joins the tables of a program.
 #include "ir/image/program_image.h"
 
 #include <algorithm>
@@ -45,7 +45,7 @@ private:
     }
   }
 
-  // How far operations reach from a byte of a space, in bytes, and the first rung that has one there.
+  // How far operations reach from a byte of a space, in bytes, and the first rung with an operation there.
   struct Reached {
     uint32_t bytes = 0;
     uint32_t rung = RUNG_NONE;
@@ -86,7 +86,7 @@ private:
     });
   }
 
-  // In the order of the program, each rung's first operation counts.
+  // In program order, the first operation of each rung counts.
   std::vector<uint32_t> firstRungsOfSlots() const {
     std::vector<uint32_t> first(module_.slots.size(), RUNG_NONE);
     for (uint32_t r = 0; r < module_.routines.size(); ++r)
@@ -182,7 +182,7 @@ private:
       out.part_first = static_cast<uint32_t>(tables_.partEnds.size());
       const std::vector<uint32_t>& ends = layout_.partition().partEnds(TaskId{i});
       tables_.partEnds.insert(tables_.partEnds.end(), ends.begin(), ends.end());
-      // A short program gives fewer borders than parts: the parts after the last border are empty.
+      // A short program has fewer borders than parts: the parts after the last border are empty.
       tables_.partEnds.insert(tables_.partEnds.end(), task.parts - ends.size(), RUNG_PC_DONE);
       out.part_count = task.parts;
       const LongestRun longest = longestRun(layout_.shape(), TaskId{i});
@@ -191,7 +191,7 @@ private:
       out.loop_free_chunk = longest.straight.chunk;
       out.loop_free_weight = longest.straight.weight;
       append(readBytes(layout_.memory(), TaskId{i}), tables_.reads, out.read_first, out.read_count);
-      if (!module_.instrumented) // what is measured changes its counters, too
+      if (!module_.instrumented) // an instrumented run also changes its counters
         append(changedWords(layout_.memory(), TaskId{i}), tables_.changes, out.change_first, out.change_count);
       tables_.tasks.push_back(out);
     }
@@ -232,7 +232,7 @@ private:
     tables_.copies.insert(tables_.copies.end(), joined.begin(), joined.end());
   }
 
-  // None writes what one reads, or another one writes.
+  // Whether no copy writes what another one reads or writes.
   static bool mayGoInAnyOrder(std::span<const rung_copy> copies) {
     if (!std::ranges::all_of(copies, [](const rung_copy& copy) { return copy.kind == RUNG_COPY_ALL; })) return false;
     struct Range {
@@ -255,7 +255,7 @@ private:
     return true;
   }
 
-  // Connected bytes have one representation, but their ranges may be cut at different places.
+  // Connected bytes have the same representation, but their ranges may be divided at different places.
   void addCopy(const Copy& copy) {
     for (uint32_t done = 0; done < copy.from.size;) {
       const uint32_t rest = copy.from.size - done;
@@ -269,7 +269,7 @@ private:
     }
   }
 
-  // As many logical bytes from `byte`, at most `size`, as lie together.
+  // The logical bytes from `byte`, at most `size`, that are contiguous in memory.
   struct Piece {
     uint32_t offset;
     uint32_t bytes;
@@ -324,7 +324,7 @@ private:
     nameRoutines(homes);
   }
 
-  // Of each rung.
+  // `homes`: the routine of each rung.
   void nameRoutines(const std::vector<const std::string*>& homes) {
     std::map<std::string_view, uint32_t> known;
     for (size_t i = 0; i < homes.size(); ++i) {
@@ -350,7 +350,7 @@ private:
   const Module& module_;
 };
 
-// Joining them.
+// Joins the tables.
 
 template <class T>
 void point(const std::vector<T>& from, const T*& to, uint32_t& count) {
@@ -393,7 +393,7 @@ void link(rung_program& p, const ImageTables& tables) {
 ProgramImage::ProgramImage(const Layout& layout, uint64_t codeHash) {
   const Module& module = layout.module();
   rung_program& p = program_;
-  p.size = sizeof(rung_program); // here; FieldKind::OwnSize
+  p.size = sizeof(rung_program); // on this computer; FieldKind::OwnSize
   p.abi_version = RUNG_ABI_VERSION;
   p.name = tables_.text(module.name);
   p.dialect = tables_.text(module.dialect);

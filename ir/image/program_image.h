@@ -1,6 +1,6 @@
 // The tables of a rung_program, made from a module and its layout, with their storage. The interpreter and the JIT use
-// the image as it is; the emitters print it as C++ text or LLVM constants by walking abi_fields.h. chunk_fns is
-// null here; the engine that runs the image sets it.
+// the image directly; the emitters print it as C++ text or LLVM constants by walking abi_fields.h. chunk_fns is null
+// here; the engine that runs the image sets it.
 #pragma once
 #include <deque>
 #include <string>
@@ -16,7 +16,7 @@ struct ImageTables {
   std::deque<std::vector<rung_range>> ranges;
   std::deque<std::vector<uint8_t>> initData;
   std::deque<std::vector<const char*>> points;
-  // What a program's memory holds.
+  // Memory of the program.
   std::vector<rung_space> spaces;
   std::vector<rung_symbol> symbols;
   std::vector<rung_slot> slots;
@@ -25,7 +25,7 @@ struct ImageTables {
   std::vector<rung_span> retains;
   std::vector<rung_span> safeSpans;
   std::vector<rung_written> writes;
-  // What runs, and when.
+  // Tasks and the schedule.
   std::vector<rung_task> tasks;
   std::vector<rung_copy> copies;
   std::vector<uint32_t> partEnds;
@@ -35,7 +35,7 @@ struct ImageTables {
   std::vector<rung_step> scan;
   std::vector<rung_step> fast;
   std::vector<rung_step> slices;
-  // What people read.
+  // Texts for output.
   std::vector<rung_info> rungs;
   std::vector<const char*> routines;
   std::vector<const char*> files;
@@ -43,13 +43,13 @@ struct ImageTables {
   std::vector<const char*> services;
   std::vector<rung_message_text> texts;
 
-  // A copy of the text, as long as the tables.
+  // A copy of the text that lives as long as the tables.
   const char* text(const std::string& s) { return strings.emplace_back(s).c_str(); }
 };
 
 class ProgramImage {
 public:
-  // `codeHash` names the code that will run (hashOf its module); the image copies what it needs.
+  // `codeHash` identifies the code that will run (hashOf its module); the image copies what it needs.
   ProgramImage(const Layout& layout, uint64_t codeHash);
   ProgramImage(const ProgramImage&) = delete;
   ProgramImage& operator=(const ProgramImage&) = delete;

@@ -11,9 +11,9 @@
 namespace rung::ir {
 namespace {
 
-constexpr size_t kOnStack = 4096; // values and operands: 32 kB
+constexpr size_t kOnStack = 4096; // values and operands on the stack: 32 kB
 
-// Gives the caller's chunk for a destination that is nowhere.
+// Returns the destination, which is the caller's chunk if `to` has none.
 Destination reach(Destination to, rung_ctx& ctx) {
   if (to.chunk == RUNG_NONE) to.chunk = ctx.stack[--ctx.sp];
   return to;
@@ -25,7 +25,7 @@ Destination leave(const Exit& exit, std::span<const uint64_t> values, rung_ctx& 
   case TransferKind::Next: return reach(exit.otherwise, ctx);
   case TransferKind::Goto: return exit.taken;
   case TransferKind::Call:
-    // After a call at the end of a routine there is nothing to come back to: the callee returns to our caller.
+    // After a call at the end of a routine there is nowhere to return to: the callee returns to the routine's caller.
     if (exit.otherwise.chunk != RUNG_NONE) ctx.stack[ctx.sp++] = exit.otherwise.chunk;
     return exit.taken;
   case TransferKind::Ret: return reach({}, ctx);

@@ -1,5 +1,5 @@
-// The reference interpreter: what an operation means, written as plainly as possible. It runs on the same memory block,
-// tables and chunks as compiled code, so every other engine can be compared with it byte for byte.
+// The reference interpreter: the meaning of each operation, written as plainly as possible. It runs on the same memory
+// block, tables and chunks as compiled code, so every other engine can be compared with it byte for byte.
 //
 // Its chunks need it in the context of each instance: a host makes instances of the engine, not of its program.
 #pragma once
@@ -18,38 +18,38 @@
 
 namespace rung::ir {
 
-// Sees what rungs do, e.g. to measure coverage.
+// Observes runs of rungs, e.g. to measure coverage. Called on the thread that runs the program.
 class RungObserver {
 public:
   virtual ~RungObserver() = default;
-  // The rung of this number (over all routines) has run; `values` holds the bits of its values, 0 where a region was
-  // not entered. No values: it stopped the program with a fault.
+  // Called after the rung with this number (over all routines) has run; `values` holds the bits of its values, 0 in
+  // regions that were not entered. No values: it stopped the program with a fault.
   virtual void rungRan(uint32_t number, std::span<const uint64_t> values) = 0;
-  // An operation of that rung reads or writes bits of a space.
+  // Called when an operation of the rung reads or writes bits of a space.
   virtual void touched(uint32_t /*number*/, const BitRange& /*place*/, bool /*writes*/) {}
 };
 
-// What the profile counters of an instrumented module count in place of time.
+// What the profile counters of an instrumented module count.
 enum class Counting : uint8_t {
   Ticks,
-  // Operations executed: all but constants, notes and the ends of branches, and one for a transfer. An exact measure,
+  // Executed operations: all but constants, notes and the ends of branches, and one for a transfer. An exact measure,
   // the same in every run.
   Operations,
 };
 
 class InterpEngine final : public runtime::Engine {
 public:
-  // The layout and its module outlive the engine.
+  // The layout and its module must outlive the engine.
   InterpEngine(const Layout& layout, uint64_t codeHash, Counting counting = Counting::Ticks);
 
   const rung_program& program() const override { return image_.program(); }
   std::string_view name() const override { return "interp"; }
   void* context() override { return this; }
-  // What the program's functions do, for code that has other functions beside them.
+  // Runs a chunk, for code that replaces the program's functions.
   uint32_t runChunk(uint8_t* mem, rung_ctx& ctx, uint32_t chunk) const;
-  // Whether some rung has so many values that running it needs memory from the heap.
+  // Whether running some rung allocates heap memory for its values.
   bool allocates() const;
-  // Null: none. The instances of an observed engine must not run at the same time.
+  // Null: no observer. The instances of an observed engine must not run at the same time.
   void setObserver(std::unique_ptr<RungObserver> observer) { observer_ = std::move(observer); }
 
 private:
@@ -58,14 +58,14 @@ private:
   const Layout& layout_;
   Counting counting_;
   ProgramImage image_;
-  std::vector<rung_chunk_fn> functions_; // by chunk: one for all
+  std::vector<rung_chunk_fn> functions_; // by chunk, all the same function
   std::unique_ptr<RungObserver> observer_;
   std::vector<Exit> exits_; // by rung number
   // By rung number and operation: the other end of a region (if: its else or endif; else: its endif; loop and endloop:
   // each other). Empty for a rung without regions.
   std::vector<std::vector<Region>> regions_;
-  size_t mostValues_ = 0; // that a rung has
-  size_t mostArgs_ = 0;   // that an operation has
+  size_t mostValues_ = 0; // of any rung
+  size_t mostArgs_ = 0;   // of any operation
 };
 
 } // namespace rung::ir

@@ -13,7 +13,7 @@ namespace {
 
 constexpr size_t kFaulted = SIZE_MAX;
 
-// Whether the operation is work that a program does: see Counting::Operations.
+// Whether the operation counts as work: see Counting::Operations.
 bool isWork(OpCode code) {
   return code != OpCode::Const && code != OpCode::Note && code != OpCode::Else && code != OpCode::EndIf &&
          code != OpCode::ProfEnter && code != OpCode::ProfLeave;
@@ -118,8 +118,8 @@ void RungRun::storeBitAt(const Op& op) {
 
 // ---- regions -------------------------------------------------------------------------------------------------------
 
-// The operands of `from` become the results of `to`, after the first `skip`. Results may be operands too, when carried
-// values change places, so all are read first.
+// The operands of `from` become the results of `to`, after the first `skip`. Results may also be operands, if carried
+// values are permuted, so all are read first.
 void RungRun::giveArgs(const Op& from, const Op& to, uint32_t skip) {
   for (int i = 0; i < from.argCount; ++i) carried_[static_cast<size_t>(i)] = in(from, i);
   std::copy_n(carried_.begin(), from.argCount, values_.begin() + to.result.index + skip);
@@ -197,14 +197,14 @@ size_t RungRun::beginLoop(const Op& op, size_t index) {
   return index + 1;
 }
 
-// The number of the operation that comes next.
+// Returns the index of the next operation.
 // NOLINTNEXTLINE(readability-function-size): a case for every operation
 size_t RungRun::step(const Op& op, size_t index) {
   switch (op.code) {
   case OpCode::Const:
     give(op, static_cast<uint64_t>(op.imm));
     break;
-// Without effects: one function evaluates them all.
+// All operations without effects are evaluated by one function.
 #define RUNG_OP(...)
 #define RUNG_VALUE_OP(code, ...) case OpCode::code:
 #include "ir/core/ops.def"
@@ -227,7 +227,7 @@ size_t RungRun::step(const Op& op, size_t index) {
     break;
   case OpCode::Now: give(op, static_cast<uint64_t>(ctx_.now_us)); break;
   case OpCode::If: return beginIf(op, index);
-  // When the branch above an else has run, its yields become the results of the endif.
+  // After the branch above an else has run, its yields become the results of the endif.
   case OpCode::Else: giveArgs(op, rung_.ops[regions_[index].end], 0); return regions_[index].end + 1;
   case OpCode::EndIf: giveArgs(op, op, 0); break;
   case OpCode::Loop: return beginLoop(op, index);

@@ -11,15 +11,15 @@ namespace rung::ir {
 
 class RungRun {
 public:
-  // `values` has a place for each value of the rung and holds their bits (see ir/core/eval.h); `carried` has one for
-  // each operand of any operation. All outlive the run.
+  // `values` has an entry for each value of the rung, with its bits (see ir/core/eval.h); `carried` one for each
+  // operand of any operation. All references must outlive the run.
   RungRun(const MemoryLayout& layout, const Rung& rung, uint32_t number, const std::vector<Region>& regions,
           uint8_t* mem, rung_ctx& ctx, std::span<uint64_t> values, std::span<uint64_t> carried, Counting counting,
           RungObserver* observer)
       : layout_(layout), rung_(rung), number_(number), regions_(regions), mem_(mem), ctx_(ctx), values_(values),
         carried_(carried), counting_(counting), observer_(observer) {}
 
-  // False: a fault, which is in the context.
+  // False after a fault, which is in the context.
   bool run();
 
 private:

@@ -1,4 +1,4 @@
-// From the operations of the rungs to bytes of the memory block (see accesses.h).
+// Maps the operations of rungs to bytes of the memory block (see accesses.h).
 #include "ir/shape/accesses.h"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ SpaceSpan bytesOf(const BitRange& place) {
 
 bool isOneBit(const Use& use) { return use.type == Type::Bit && !use.computed; }
 
-// Adds what is used in the memory block.
+// Adds the used bytes of the memory block.
 void addBytes(const MemoryLayout& layout, const Use& use, std::vector<rung_span>& spans) {
   if (isOneBit(use)) return spans.push_back({layout.bit(use.place.space, use.place.first).offset, 1});
   const std::vector<rung_span> pieces = layout.pieces(bytesOf(use.place));
@@ -33,14 +33,14 @@ public:
   void add(const rung_written& written) { all_.push_back(written); }
 
   std::vector<rung_written> joined() {
-    // Whole bytes before bits of them.
+    // Whole bytes before single bits of them.
     std::ranges::sort(all_, {}, [](const rung_written& w) { return std::pair(w.offset, w.mask != kAllBits); });
     for (const rung_written& written : all_) join(written);
     return std::move(out_);
   }
 
 private:
-  // With the last one, where it touches that.
+  // Merged with the last one, if they overlap or are adjacent.
   void join(const rung_written& written) {
     if (out_.empty()) return out_.push_back(written);
     rung_written& last = out_.back();
@@ -54,7 +54,7 @@ private:
       out_.push_back(written);
     }
   }
-  // The last one has become a whole byte.
+  // Called when the last one has become a whole byte.
   void joinLast() {
     const rung_written last = out_.back();
     out_.pop_back();
@@ -79,7 +79,7 @@ std::vector<rung_span> joined(std::vector<rung_span> spans) {
   return out;
 }
 
-// Adds what an operation reads or writes of the memory block.
+// Adds what an operation reads or writes in the memory block.
 void addTouched(const MemoryLayout& layout, const Op& op, std::vector<rung_span>& spans) {
   if (opInfo(op.code).attr == Attr::Slot)
     return spans.push_back({layout.slot(SlotId{op.ref}), std::max(1u, byteWidth(op.type))});
@@ -125,7 +125,7 @@ namespace {
 
 bool does(const Op& op, uint8_t effects) { return (opInfo(op.code).effects & effects) != 0; }
 
-// Within a scan.
+// Whether the task runs more than once within a scan.
 bool runsAgain(const Module& module, TaskId task) {
   uint32_t runs = 0;
   for (const Step& step : module.scan)

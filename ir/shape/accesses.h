@@ -1,4 +1,4 @@
-// Which bytes of the memory block tasks read and chunks write, of spaces.
+// The bytes of the memory block, in spaces, that tasks read and chunks write.
 #pragma once
 #include <vector>
 
@@ -7,15 +7,15 @@
 
 namespace rung::ir {
 
-// All that chunks may write: ascending, none overlaps the next.
+// Everything that chunks may write: ascending, without overlaps.
 std::vector<rung_written> writtenBits(const MemoryLayout& layout);
 
-// What a run of the task may read, its `begin` copies included: ascending, none touches the next.
+// Everything that a run of the task may read, including its `begin` copies: ascending, no two adjacent.
 std::vector<rung_span> readBytes(const MemoryLayout& layout, TaskId task);
 
-// Of a task that a scan runs more than once: offsets of eight bytes of the memory block, ascending, where all lies that
-// a run may change, its copies apart. Empty for other tasks; where a run does more than that (it asks the host, it is
-// measured); and where there are more than RUNG_MOST_CHANGES.
+// For a task that runs more than once per scan: offsets of groups of eight bytes of the memory block, ascending, that
+// contain everything that a run may change, except its copies. Empty for other tasks; for a run with other effects
+// (host calls, measuring); and if there are more than RUNG_MOST_CHANGES.
 std::vector<uint32_t> changedWords(const MemoryLayout& layout, TaskId task);
 
 } // namespace rung::ir

@@ -1,4 +1,4 @@
-// Placing cells and slots in the memory block (see memory_layout.h).
+// Places cells and slots in the memory block (see memory_layout.h).
 #include "ir/shape/memory_layout.h"
 
 #include <algorithm>
@@ -13,8 +13,8 @@
 namespace rung::ir {
 namespace {
 
-// What a program decides takes a multiple of so many bytes: a changed program seldom needs more, and then what follows
-// lies elsewhere and is copied.
+// Areas whose size depends on the program are rounded up to a multiple of this number of bytes: a changed program
+// seldom needs more; if it does, the areas after it move and must be copied.
 constexpr uint32_t kRoom = 4096;
 
 uint64_t alignUp(uint64_t value, uint32_t align) { return (value + align - 1) / align * align; }
@@ -60,10 +60,10 @@ private:
     }
   }
 
-  // What is packed lies where it lies in its space, and what has the same size in every program of the dialect lies at
-  // the same place, but for hidden spaces that follow what the program decides (its own spaces, expanded bits and
-  // slots) after some room: so a program that takes over finds most of its state in place. Hidden ones come last, as
-  // debuggers do not read a structure of any size.
+  // Packed spaces keep their byte order, and spaces with the same size in every program of the dialect have the same
+  // place, so that a replacement finds most of its state in place. Only hidden spaces follow, after some reserve, the
+  // areas whose size depends on the program (its own spaces, expanded bits and slots): they are last because debuggers
+  // do not read structures of any size.
   void placeSpaces() {
     placePacked(0);
     const uint64_t decided = next_;
@@ -98,7 +98,7 @@ private:
       }
   }
 
-  // Widest first, so that each is aligned without gaps; one more of a size moves those of other sizes seldom.
+  // Widest first, so that each is aligned without gaps; one more slot of a size seldom moves those of other sizes.
   void placeSlots() {
     layout_.slotOffsets_.resize(module_.slots.size());
     for (uint32_t size : {8u, 4u, 2u, 1u}) {
@@ -113,7 +113,7 @@ private:
 
   MemoryLayout& layout_;
   const Module& module_;
-  uint64_t next_ = 0; // free place of the memory block
+  uint64_t next_ = 0; // next free offset in the memory block
 };
 
 MemoryLayout::MemoryLayout(const Module& module, bool expandBits) : module_(&module) {

@@ -1,4 +1,4 @@
-// Collects the members (see memory_members.h): symbols first, then the addresses that are left.
+// Collects the members (see memory_members.h): symbols first, then the remaining addresses.
 #include "ir/shape/memory_members.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 namespace rung::ir {
 namespace {
 
-// What neither a C++ compiler nor gdb takes for a member; `rung_memory` is the struct itself.
+// Names that a C++ compiler or gdb does not accept for a member; `rung_memory` is the struct itself.
 constexpr std::string_view kReserved[] = {"_FORTIFY_SOURCE",
                                           "_GNU_SOURCE",
                                           "_LP64",
@@ -123,7 +123,7 @@ std::string identifier(std::string_view name) {
   std::string out;
   if (name.empty() || text::isDigit(name.front())) out += '_';
   for (const char c : name) out += text::isDigit(c) || text::isLetter(c) ? c : '_';
-  // Those that begin so may be macros of the compiler: __FILE__, __x86_64__.
+  // Names with this beginning may be macros of the compiler: __FILE__, __x86_64__.
   if (std::ranges::binary_search(kReserved, std::string_view(out)) || out.starts_with("__")) out += '_';
   return out;
 }
@@ -143,7 +143,7 @@ bool isShown(const Symbol& symbol) {
   return (symbol.flags & (RUNG_SYMBOL_CONST | RUNG_SYMBOL_HIDDEN)) == 0 && symbol.space.valid();
 }
 
-// A place that an operation names: a bit, or the first byte of a cell.
+// A place in an operation: a bit, or the first byte of a cell.
 struct Address {
   SpaceId space;
   uint64_t bit = 0; // from the beginning of the space
@@ -162,13 +162,13 @@ public:
   }
 
   std::vector<MemoryMember> run() {
-    // A symbol that is an identifier keeps its name, whatever others are mapped to.
+    // A symbol that is an identifier keeps its name, even if others are mapped to it.
     for (const bool mapped : {false, true})
       for (const Symbol& symbol : module_.symbols)
         if (isShown(symbol) && (identifier(symbol.name) != symbol.name) == mapped) addSymbol(symbol);
     for (const Address& address : addressesOfRungs()) {
       addAddress(address);
-      // Reals are also moved as bit patterns.
+      // Reals are also copied as bit patterns.
       if (address.type == Type::I64) addAddress({address.space, address.bit, Type::F64});
     }
     std::ranges::sort(members_, {}, [](const MemoryMember& m) { return std::tie(m.firstBit, m.name); });
@@ -195,7 +195,7 @@ private:
     std::vector<const Symbol*>& cells = cells_[symbol.space.index];
     const size_t end = std::min<size_t>(cells.size(), size_t{symbol.byte} + bytes);
     for (size_t i = symbol.byte; i < end; ++i)
-      // Of several the one with the fewest bytes says most.
+      // Of several symbols, the one with the fewest bytes is the most specific.
       if (cells[i] == nullptr ||
           symbol.count * byteWidth(elementType(symbol)) < cells[i]->count * byteWidth(elementType(*cells[i])))
         cells[i] = &symbol;
@@ -213,7 +213,7 @@ private:
     return found;
   }
 
-  // A latch lies in a hidden space; users know the place that it was taken from.
+  // A latch is in a hidden space; users know the place from which it was copied.
   Address original(const Address& address) const {
     if ((module_.at(address.space).flags & RUNG_SPACE_HIDDEN) == 0) return address;
     for (const Task& task : module_.tasks)
@@ -231,7 +231,7 @@ private:
     if (!name.empty() && !names_.contains(name)) add(uniqueName(name), address, 1, false);
   }
 
-  // Empty where the symbol's own member shows it.
+  // Empty if the symbol's own member shows it.
   std::string nameInCell(const Symbol& cell, const Address& address) const {
     const Type type = elementType(cell);
     const uint64_t into = address.bit - uint64_t{cell.byte} * 8;
@@ -243,7 +243,7 @@ private:
     return fmt::format("{}{}_{}", identifier(cell.name), element, typeName(address.type));
   }
 
-  // X2_1, D10, D10_i16: the space's name, the number of the unit, and the bit in it or a type that is not the unit's.
+  // X2_1, D10, D10_i16: the space's name, the number of the unit, and the bit in it or a type other than the unit's.
   std::string addressName(const Address& address) const {
     const Space& space = module_.at(address.space);
     const uint64_t unitBits = uint64_t{space.unitBytes} * 8;
@@ -276,7 +276,7 @@ private:
 
   const MemoryLayout& layout_;
   const Module& module_;
-  std::vector<std::vector<const Symbol*>> cells_; // per space and byte: the symbol whose cell it belongs to
+  std::vector<std::vector<const Symbol*>> cells_; // by space and byte: the symbol of the cell that contains it
   std::set<Address> namedBits_;
   std::unordered_set<std::string> names_;
   std::vector<MemoryMember> members_;

@@ -1,4 +1,4 @@
-// Cutting rungs into chunks (see partition.h).
+// Partitions rungs into chunks (see partition.h).
 #include "ir/shape/partition.h"
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 namespace rung::ir {
 namespace {
 
-constexpr uint32_t kNear = 8; // places within this part of a chunk are near one another
+constexpr uint32_t kNear = 8; // places within this fraction of a chunk are near one another
 
 uint32_t weightOf(const Rung& rung) { return std::max(1u, rung.weight); }
 bool leavesRoutine(TransferKind kind) {
@@ -61,7 +61,7 @@ private:
     }
   }
 
-  // The rungs of a routine that begin a chunk wherever the others are cut.
+  // The rungs of a routine that must begin a chunk, wherever the others begin.
   void markHeads(uint32_t routine) {
     const std::vector<Rung>& rungs = module_.routines[routine].rungs;
     heads_.assign(rungs.size() + 1, false);
@@ -88,13 +88,13 @@ private:
       };
       if (transfer.kind == TransferKind::Next || transfer.cond.valid()) way(i + 1);
       forTargets(transfer, way);
-      after[i] = least == UINT32_MAX ? 0 : least; // nowhere in the routine: back to the caller, or the run's end
+      after[i] = least == UINT32_MAX ? 0 : least; // outside of the routine: back to the caller, or the run's end
       if (leavesRoutine(transfer.kind)) after[i] = 0;
     }
     chunk.weight = weightOf(rungs[chunk.firstRung]) + after[chunk.firstRung];
   }
 
-  // For chunkEnd: operations before each rung, and jumps that lead over the border before it.
+  // For chunkEnd: the number of operations before each rung, and of jumps across the border before it.
   void measure(const std::vector<Rung>& rungs) {
     opsBefore_.assign(1, 0);
     crossing_.assign(rungs.size() + 2, 0);
@@ -109,14 +109,14 @@ private:
     std::partial_sum(crossing_.begin(), crossing_.end(), crossing_.begin());
   }
 
-  // From `first` up to the rung before `end`.
+  // The chunk from `first` up to the rung before `end`.
   bool isFull(uint32_t first, uint32_t end) const {
     return end - first >= options_.maxChunkRungs || opsBefore_[end + 1] - opsBefore_[first] > options_.maxChunkOps;
   }
 
-  // A full chunk is cut in its second half, as late as possible where the fewest jumps would have to leave it; but of
-  // such places that lie near one another the rungs' keys choose, so that a rung which is inserted above moves one cut
-  // or two, and not all that follow.
+  // A full chunk is divided in its second half, as late as possible, at a border that the fewest jumps cross; among
+  // such borders near one another, the rungs' keys choose, so that inserting a rung above moves one border or two, and
+  // not all later ones.
   uint32_t chunkEnd(uint32_t routine, uint32_t first) const {
     const std::vector<Rung>& rungs = module_.routines[routine].rungs;
     const auto count = static_cast<uint32_t>(rungs.size());
@@ -149,7 +149,7 @@ private:
   Partition& partition_;
   const Module& module_;
   PartitionOptions options_;
-  // Of the routine in hand, by rung.
+  // Of the current routine, by rung.
   std::vector<bool> heads_;
   std::vector<int32_t> crossing_;
   std::vector<size_t> opsBefore_;
@@ -169,7 +169,7 @@ bool mayJumpTo(const Transfer& transfer, uint32_t rung) {
          std::ranges::find(transfer.targets, rung) != transfer.targets.end();
 }
 
-// Whether control leaves a rung only by exits that another form of it has.
+// Whether control leaves a rung only by exits that the rung of the shape has.
 bool hasExitsOf(const Transfer& code, const Transfer& shape, uint32_t next) {
   const auto shapeGoesTo = [&](uint32_t rung) { return mayJumpTo(shape, rung) || (rung == next && mayGoOn(shape)); };
   if (leavesRoutine(code.kind) && (code.kind != shape.kind || code.callee != shape.callee)) return false;

@@ -1,15 +1,15 @@
-// How control is cut into chunks, the pieces that engines compile and the runner enters. Decided once from a
-// program's shape (layout.h); where a byte lies is another matter (memory_layout.h).
+// The partition of control into chunks, which engines compile and the runner enters. Decided once from a program's
+// shape (layout.h), independently of the memory layout (memory_layout.h).
 //
 // A chunk is a run of at most `maxChunkRungs` rungs (and about `maxChunkOps` operations) of one routine, entered only
-// at its head. Within it control goes down only: a Goto or Switch to a rung further down in the same chunk stays
-// inside, every other one leaves. So a chunk begins at each routine's start, after every Call, where a part of a task
-// begins, and at every target that is not below its jump in one chunk. Compile time grows linearly with the number of
-// chunks.
+// at its first rung. Within it control only goes down: a Goto or Switch to a rung further down in the same chunk stays
+// inside, every other one leaves the chunk. So a chunk begins at each routine's start, after every Call, where a part
+// of a task begins, and at every target that is not below its jump in the same chunk. Compile time grows linearly with
+// the number of chunks.
 //
-// The watchdog counts the rungs that are run: a chunk weighs what its lightest way from the head out weighs, and a jump
-// or a step down within it that is not on the lightest way from there costs the difference (Destination::extra). So a
-// jump over something that is mostly idle costs nothing to count.
+// The watchdog counts the rungs that run: a chunk has the weight of the lightest path from its first rung out of it,
+// and a jump or a step down within it that is not on the lightest path from there costs the difference
+// (Destination::extra). So counting a jump over rungs that are mostly idle costs nothing.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -19,36 +19,36 @@
 namespace rung::ir {
 
 struct PartitionOptions {
-  uint32_t maxChunkRungs = 256; // fewer: the host's jump from chunk to chunk shows; more: compilers slow down
+  uint32_t maxChunkRungs = 256; // fewer: the host's dispatch of chunks becomes noticeable; more: compilers slow down
   uint32_t maxChunkOps = 1024;
 };
 
 struct Chunk {
   RoutineId routine;
-  uint32_t firstRung = 0; // in the routine
+  uint32_t firstRung = 0; // index in the routine
   uint32_t rungCount = 0;
-  uint32_t weight = 1; // of the lightest way through it
+  uint32_t weight = 1; // of the lightest path through it
 };
 
 // Where control goes after a rung: further down in its chunk, or to a chunk, whose number the compiled chunk returns.
 struct Destination {
   uint32_t chunk = RUNG_NONE; // RUNG_NONE: back to the caller
-  uint32_t rung = RUNG_NONE;  // of the routine, when it lies in the same chunk
-  uint32_t extra = 0;         // weight on top of the chunk's; 0 where the chunk is left
+  uint32_t rung = RUNG_NONE;  // index in the routine, if in the same chunk
+  uint32_t extra = 0;         // weight in addition to the chunk's; 0 at an exit of the chunk
   bool inside() const { return rung != RUNG_NONE; }
 };
 
 class Partition {
 public:
-  // `module`, a shape, has passed the verifier and outlives the cut.
+  // `module`, a shape, has passed the verifier and must outlive the partition.
   Partition(const Module& module, const PartitionOptions& options);
 
-  // The same chunks of another form of the module, whose rungs have the same exits, or fewer: that is checked.
+  // The same chunks for a variant of the module, whose rungs must have the same exits, or fewer: that is checked.
   Partition over(const Module& module) const;
 
   const Module& module() const { return *module_; }
   const std::vector<Chunk>& chunks() const { return chunks_; }
-  // The chunk that begins with this rung; it exists for every place that control can reach from elsewhere.
+  // The chunk that begins with this rung; defined for every rung that control can reach from another chunk.
   uint32_t chunkAt(RoutineId routine, uint32_t rung) const;
   uint32_t entry(RoutineId routine) const { return chunkAt(routine, 0); }
   // From one rung of a routine to another.
@@ -59,27 +59,27 @@ public:
     return at.origin.index == RUNG_NONE ? firstRung_[routine.index] + rung : at.origin.index;
   }
   uint32_t rungCount() const { return rungCount_; }
-  // Chunks before which parts of a task end; one entry fewer than its parts.
+  // For each part of a task but the last, the chunk before which it ends.
   const std::vector<uint32_t>& partEnds(TaskId task) const { return partEnds_[task.index]; }
 
 private:
   friend class Partitioner;
   const Module* module_;
   std::vector<Chunk> chunks_;
-  std::vector<std::vector<uint32_t>> chunkOfRung_; // per routine and rung: the chunk it is in
-  std::vector<std::vector<uint32_t>> after_;       // per routine and rung: the lightest way after it to the chunk's end
+  std::vector<std::vector<uint32_t>> chunkOfRung_; // by routine and rung: the chunk that contains it
+  std::vector<std::vector<uint32_t>> after_; // by routine and rung: the lightest path after it to the end of the chunk
   std::vector<uint32_t> firstRung_;
   uint32_t rungCount_ = 0;
   std::vector<std::vector<uint32_t>> partEnds_;
 };
 
-// How a rung is left. These places are all that engines need; they decide nothing themselves.
+// How control leaves a rung, with all destinations that engines need.
 struct Exit {
   TransferKind kind = TransferKind::Next;
   ValueId cond;                     // invalid: always
-  ValueId value;                    // Switch
+  ValueId value;                    // Switch: the value
   Destination taken;                // Goto: its target; Call: the entry of the callee
-  Destination otherwise;            // where it goes when cond is 0, and where a Call comes back to
+  Destination otherwise;            // where control goes if cond is 0, and where a Call returns
   std::vector<Destination> targets; // Switch
 };
 Exit exitOf(const Partition& partition, RoutineId routine, uint32_t rung);

@@ -1,4 +1,5 @@
-// The choice of representation (see representation.h): collect what touches each byte, make copies agree, fill gaps.
+// Chooses the representation (see representation.h): collects the accesses to each byte, makes copies agree, fills
+// gaps.
 #include "ir/shape/representation.h"
 
 #include <algorithm>
@@ -14,11 +15,11 @@ namespace {
 enum Use : uint8_t { kUntouched = 0, kBits = 1, kWhole = 2 };
 using Uses = std::vector<std::vector<uint8_t>>;
 
-// Gaps up to this many bytes between expanded bytes are expanded too: fewer ranges, so fewer pieces to copy.
+// Gaps of up to this many bytes between expanded bytes are expanded, too: fewer ranges, so fewer pieces to copy.
 constexpr size_t kGap = 16;
 
-// What touches the bytes of one space. Windows are long and many are the same ones, so they are put in once, at the
-// end: time grows with their number and with the space, not with the product.
+// The accesses to the bytes of one space. Windows are long and many are equal, so they are added once, at the end: the
+// time grows with their number and with the space, not with the product.
 class SpaceUses {
 public:
   explicit SpaceUses(const Space& space)
@@ -42,7 +43,7 @@ public:
 
 private:
   std::vector<uint8_t> bytes_;
-  std::vector<std::pair<uint64_t, uint64_t>> whole_; // begin and end of what is touched as bytes
+  std::vector<std::pair<uint64_t, uint64_t>> whole_; // begin and end of accesses to bytes
 };
 
 void markOp(const Module& module, const Op& op, std::vector<SpaceUses>& uses) {
@@ -94,7 +95,8 @@ void forConnected(const Module& module, Uses& uses, Visit visit) {
       }
 }
 
-// Makes connected bytes equal by giving both the greater use; copies may form chains, so until nothing changes.
+// Makes connected bytes equal by giving both the more demanding use; repeated until nothing changes, because copies may
+// form chains.
 void agree(const Module& module, Uses& uses) {
   bool changed = true;
   while (changed) {
@@ -117,7 +119,7 @@ void fillGaps(std::vector<uint8_t>& uses) {
   }
 }
 
-// A gap at the end of a copied piece may have been filled on one side only; nothing touches it, so it goes back.
+// A gap at the end of a copied piece may have been filled on one side only; it has no accesses, so that is undone.
 void undoOneSidedGaps(const Module& module, Uses& uses) {
   bool changed = true;
   while (changed) {

@@ -13,7 +13,7 @@ constexpr std::string_view kBegin = "allow(";
 bool isCodeCharacter(char c) { return text::isLetter(c) || text::isDigit(c) || c == '-'; }
 bool isBlank(char c) { return c == ' ' || c == '\t'; }
 
-// Takes the next of several codes with commas between them off; empty where there is something else.
+// Removes and returns the next of several codes separated by commas; empty if something else follows.
 std::string_view takeCode(std::string_view& list) {
   list.remove_prefix(std::min(list.find_first_not_of(" \t"), list.size()));
   const auto* const end = std::ranges::find_if_not(list, isCodeCharacter);
@@ -25,7 +25,7 @@ std::string_view takeCode(std::string_view& list) {
   return code;
 }
 
-// What is in the brackets of an allowance that the text begins with; nothing where it begins with something else.
+// The text in the brackets of an allowance at the beginning of the text; nothing if there is none.
 std::string_view codesOf(std::string_view text) {
   const size_t end = text.find(')');
   if (!text.starts_with(kBegin) || end == std::string_view::npos) return {};

@@ -1,5 +1,5 @@
-// `allow(CODE)` or `allow(CODE, CODE)` in the comment of a declaration: warnings that are meant. It speaks to the
-// compiler alone.
+// `allow(CODE)` or `allow(CODE, CODE)` in the comment of a declaration: suppresses these warnings. Only the compiler
+// reads it.
 #pragma once
 #include <string>
 #include <string_view>
@@ -8,9 +8,9 @@
 namespace rung {
 
 bool allows(std::string_view comment, std::string_view code);
-// The codes of all allowances in it, known ones and others.
+// The codes in all allowances of the comment, known or not.
 std::vector<std::string_view> allowedCodes(std::string_view comment);
-// The comment as a reader is to see it.
+// The comment without its allowances, for display.
 std::string withoutAllowances(std::string_view comment);
 
 } // namespace rung

@@ -1,4 +1,4 @@
-// Out-of-line part of RUNG_CHECK, so that a check costs one branch at its place.
+// Out-of-line part of RUNG_CHECK, so that a check costs only a branch.
 #include "ir/support/check.h"
 
 #include <cstdio>

@@ -1,10 +1,10 @@
-// RUNG_CHECK: broken invariants of our own code end the program, in every build type.
+// RUNG_CHECK: a broken invariant of Rung's own code ends the process, in every build type.
 #pragma once
 
 namespace rung {
 
-/// As long as one is alive in a thread, what fails there is thrown, as a std::logic_error: a library does not end the
-/// process of its host.
+/// As long as an object of this class exists on a thread, a failing check on that thread throws std::logic_error
+/// instead: a library must not end the process of its host.
 class ThrowingChecks {
 public:
   ThrowingChecks() noexcept;
@@ -13,7 +13,7 @@ public:
   ThrowingChecks& operator=(const ThrowingChecks&) = delete;
 };
 
-/// Prints what failed and where, then aborts.
+/// Prints the failed condition and its place, then aborts.
 [[noreturn]] void checkFailed(const char* condition, const char* message, const char* file, int line);
 
 } // namespace rung

@@ -1,4 +1,4 @@
-// Diagnostics for tools. Kept apart from the text form because of nlohmann's headers.
+// Diagnostics as JSON. Separate from the text form because of nlohmann's headers.
 #include <nlohmann/json.hpp>
 
 #include "ir/support/diag_render.h"

@@ -1,4 +1,4 @@
-// Diagnostics for people: the place, the message, and the source line with the place underlined.
+// Diagnostics as text: the position, the message, and the source line with the range underlined.
 #include "ir/support/diag_render.h"
 
 #include <algorithm>
@@ -25,13 +25,13 @@ struct Window {
   size_t end = 0;
 };
 
-/// Moves an offset into the middle of a character back to its beginning.
+/// Moves an offset within a character back to its beginning.
 size_t characterStart(std::string_view line, size_t offset) {
   while (offset > 0 && offset < line.size() && text::isUtf8Continuation(line[offset])) --offset;
   return offset;
 }
 
-/// About `width` bytes with the mark in them; never looks at the rest of the line.
+/// About `width` bytes around the mark; the rest of the line is never read.
 Window clip(std::string_view line, size_t mark, size_t width) {
   if (line.size() <= width) return {0, line.size()};
   const size_t before = std::min(mark, width / 2);
@@ -39,7 +39,7 @@ Window clip(std::string_view line, size_t mark, size_t width) {
   return {begin, characterStart(line, std::min(line.size(), begin + width))};
 }
 
-/// Appends a character as a terminal can show it and returns the cells it takes.
+/// Appends a character in a form that a terminal can show, and returns its width in columns.
 unsigned appendShown(std::string& out, std::string_view line, size_t& offset) {
   const CodePoint character = decodeUtf8(line, offset);
   const std::string_view bytes = line.substr(offset, character.length);
@@ -56,7 +56,7 @@ unsigned appendShown(std::string& out, std::string_view line, size_t& offset) {
   return displayWidth(character.value);
 }
 
-/// Texts quoted from a source may hold anything; a terminal must not obey it.
+/// Texts quoted from a source may contain anything; a terminal must not interpret it.
 std::string printable(std::string_view text) {
   std::string out;
   for (size_t at = 0; at < text.size();) appendShown(out, text, at);
@@ -82,7 +82,7 @@ public:
       out_ += printable(note.text) + "\n";
       snippet(note.range, '^', kBlue, "");
     }
-    // Fixes of one report belong together: further ones do the same at further places.
+    // The fixes of one report belong together: the later ones do the same at other positions.
     if (!d.fixes.empty() && !d.fixes.front().noted) help(d.fixes.front());
   }
 
@@ -148,14 +148,14 @@ private:
     }
   }
 
-  /// Without the blanks before a closing bracket that keep the columns of a drawing.
+  /// Removes the blanks before a closing bracket that keep the columns of a drawing.
   static std::string withoutPadding(std::string text) {
     if (text.empty() || std::string_view("])}").find(text.back()) == std::string_view::npos) return text;
     const size_t end = text.find_last_not_of(' ', text.size() - 2) + 1;
     return text.erase(end, text.size() - 1 - end);
   }
 
-  /// A text from the source, not longer than a line.
+  /// A text from the source, limited to the length of a line.
   std::string shown(std::string_view text) const {
     const Window window = clip(text, 0, options_.width);
     return printable(text.substr(0, window.end)) + (window.end < text.size() ? "..." : "");

@@ -1,4 +1,4 @@
-// The table of codes, the collection of reports, and the making of messages.
+// The table of codes, the collection of reports, and the formatting of messages.
 #include "ir/support/diagnostics.h"
 
 #include <algorithm>
@@ -31,7 +31,7 @@ constexpr DiagInfo kDiags[] = {
 #undef DIAG
 };
 
-/// Where each family begins in the table.
+/// The index of the first entry of each family.
 constexpr auto kFirstOfFamily = [] {
   std::array<size_t, 256> first{};
   for (size_t i = std::size(kDiags); i-- > 0;) first[static_cast<unsigned>(kDiags[i].id) >> 8] = i;
@@ -40,7 +40,7 @@ constexpr auto kFirstOfFamily = [] {
 
 /// No message has more placeholders.
 constexpr size_t kMaxArgs = 8;
-/// Longer arguments are cut: a word of a rubbish file may have megabytes.
+/// Longer arguments are truncated: a word in a file of garbage may have megabytes.
 constexpr size_t kMaxArgLength = 200;
 
 std::string shorten(std::string_view argument) {
@@ -75,7 +75,7 @@ std::string messageOf(const Diagnostic& diagnostic) {
   for (const DiagArg& arg : diagnostic.args) std::visit([&store](const auto& value) { store.push_back(value); }, arg);
   for (size_t i = diagnostic.args.size(); i < kMaxArgs; ++i) store.push_back("?");
   const std::string_view pattern = diagInfo(diagnostic.id).message;
-  // A pattern that does not format is a defect of a .def file; the user still gets its text.
+  // An invalid pattern is a defect of a .def file; the user still gets its text.
   try {
     return fmt::vformat(pattern, store);
   } catch (const fmt::format_error&) {
@@ -162,7 +162,7 @@ std::vector<const Diagnostic*> Diagnostics::sorted() const {
   std::vector<const Diagnostic*> order;
   order.reserve(kept_.size());
   for (const Diagnostic& d : kept_) order.push_back(&d);
-  // Addresses grow in the order of reporting.
+  // Pointers into the vector increase in the order of reporting.
   std::sort(order.begin(), order.end(), [](const Diagnostic* a, const Diagnostic* b) {
     return a->range.begin != b->range.begin ? a->range.begin < b->range.begin : a < b;
   });

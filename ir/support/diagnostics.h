@@ -1,11 +1,10 @@
-// Diagnostics: what the compiler says about a program.
-// Every code is one entry of ir/support/diag/*.def with its severity, its message and its explanation; reports name the
-// code, a place and the arguments of the message:
+// Diagnostics: errors and warnings about a program. Every code is one entry of ir/support/diag/*.def with its severity,
+// its message and its explanation; a report has the code, a range and the arguments of the message:
 //   diags.report(diag::DuplicateSymbol, range) << name;
 //   diags.report(diag::DuplicateSymbol, range).note(first, "first declared here") << name;
-// Who reports includes the header of the code's family, ir/support/diag/*.h: a new entry compiles those files alone.
-// A report is complete at the end of its full expression. The same code at the same place with the same arguments is
-// kept once. Codes are stable names: scenarios and users refer to them.
+// Code that reports includes the header of the code's family, ir/support/diag/*.h: a new entry recompiles only those
+// files. A report is complete at the end of its full expression. The same code at the same position with the same
+// arguments is stored once. Codes are stable names: scenarios and users refer to them.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +27,7 @@ enum class Severity : uint8_t { Warning, Error };
 enum class Diag : uint16_t {};
 
 namespace diag {
-/// In the order in which allDiags() has them.
+/// In the order of allDiags().
 enum class Family : uint8_t { Source, Project, Ladder, Operand, Structure, Gsk, Nct, Technol };
 constexpr Diag codeOf(Family family, uint8_t line) {
   return static_cast<Diag>(static_cast<unsigned>(family) << 8 | line);
@@ -51,8 +50,8 @@ std::span<const DiagInfo> allDiags();
 
 using DiagArg = std::variant<int64_t, std::string>;
 
-/// A further place that explains the error. A note is after the message; a label marks a part of the source with a
-/// few words. The range of a note may be invalid: a remark without a place.
+/// Another position that explains the error. A note follows the message; a label marks a part of the source with a few
+/// words. The range of a note may be invalid: a remark without a position.
 struct DiagNote {
   SourceRange range;
   std::string text;
@@ -62,25 +61,25 @@ struct DiagNote {
 struct DiagFix {
   SourceRange range;
   std::string replacement;
-  bool noted = false; ///< a note says it for people
+  bool noted = false; ///< a note describes it for the user
 };
 
 struct Diagnostic {
   Diag id{};
-  Severity severity = Severity::Error; ///< as reported: strict mode is applied already
-  SourceRange range;                   ///< invalid where there is no place
+  Severity severity = Severity::Error; ///< as reported: after strict mode has been applied
+  SourceRange range;                   ///< invalid if there is no position
   std::vector<DiagArg> args;
   std::vector<DiagNote> labels;
   std::vector<DiagNote> notes;
   std::vector<DiagFix> fixes;
 };
 
-/// The message with its arguments. A missing argument is printed as "?", a surplus one is left out.
+/// The message with its arguments. A missing argument is printed as "?", a surplus one is ignored.
 std::string messageOf(const Diagnostic& diagnostic);
 
 class Diagnostics;
 
-/// Collects the parts of one report and hands it to its Diagnostics when it is destroyed.
+/// Collects the parts of one report and adds it to its Diagnostics when it is destroyed.
 class DiagBuilder {
 public:
   DiagBuilder(Diagnostics& sink, Diag id, SourceRange range);
@@ -101,9 +100,9 @@ public:
   DiagBuilder& note(SourceRange range, std::string_view text);
   DiagBuilder& note(std::string_view text) { return note(SourceRange{}, text); }
   DiagBuilder& fix(SourceRange range, std::string_view replacement);
-  /// "did you mean WORD?" and, where the range is valid, the fix that puts it there. Nothing for an empty word.
+  /// Adds "did you mean WORD?" and, if the range is valid, the fix that inserts it. Does nothing for an empty word.
   DiagBuilder& meant(SourceRange range, std::string_view word);
-  /// For a code that is an error in one dialect and a warning in another. Strict mode still raises it.
+  /// For a code that is an error in one dialect and a warning in another. Strict mode still applies.
   DiagBuilder& severity(Severity severity);
 
 private:
@@ -115,7 +114,7 @@ private:
 
 class Diagnostics {
 public:
-  /// Of each severity at most this many are kept; all are counted. Keeps a file of rubbish from filling the memory.
+  /// Of each severity at most this many are stored; all are counted. Limits the memory that a file of garbage takes.
   static constexpr size_t kDefaultLimit = 1000;
 
   DiagBuilder report(Diag id, SourceRange range) { return DiagBuilder(*this, id, range); }
@@ -129,15 +128,15 @@ public:
   bool hasErrors() const { return errors_ != 0; }
   size_t errorCount() const { return errors_; }
   size_t warningCount() const { return warnings_; }
-  /// How many were counted but not kept.
+  /// How many were counted but not stored.
   size_t droppedCount() const { return dropped_; }
   bool has(Diag id) const;
-  /// With so many errors suggestions are not read, and searching for them takes long in a file of rubbish.
+  /// False after many errors: suggestions are not read then, and computing them takes long for a file of garbage.
   bool suggests() const { return errors_ <= 100; }
 
   /// In the order of reporting.
   const std::vector<Diagnostic>& reported() const { return kept_; }
-  /// By position (files in the order they were added), otherwise in the order of reporting.
+  /// By position (files in the order in which they were added), otherwise in the order of reporting.
   std::vector<const Diagnostic*> sorted() const;
 
 private:

@@ -23,17 +23,17 @@ public:
   // NOLINTNEXTLINE(performance-no-int-to-ptr): iconv says so that it knows no such encoding
   bool isOpen() const { return handle_ != reinterpret_cast<iconv_t>(-1); }
 
-  // How many bytes came through; those of half a character at the end stay.
+  // Returns the number of bytes converted; an incomplete character at the end remains.
   size_t convert(std::string_view bytes, std::string& out) {
-    std::string input(bytes); // iconv takes what it may change
+    std::string input(bytes); // iconv takes a non-const buffer
     char* from = input.data();
     size_t left = input.size();
-    if (put(&from, &left, out)) put(nullptr, nullptr, out); // the shift state
+    if (put(&from, &left, out)) put(nullptr, nullptr, out); // flushes the shift state
     return input.size() - left;
   }
 
 private:
-  // False: at a byte that begins no character, or at a character that the other encoding lacks.
+  // False: at a byte that does not begin a character, or at a character that the other encoding lacks.
   bool put(char** from, size_t* left, std::string& out) {
     char buffer[4096];
     for (;;) {

@@ -1,4 +1,4 @@
-// Text in other encodings than UTF-8, by iconv.
+// Conversion of text in encodings other than UTF-8, by iconv.
 #pragma once
 
 #include <cstddef>
@@ -8,21 +8,21 @@
 
 namespace rung {
 
-/// Whether iconv knows an encoding of this name, such as gb18030 or windows-1250.
+/// Whether iconv has an encoding of this name, such as gb18030 or windows-1250.
 bool knowsEncoding(const std::string& name);
 
 struct Decoded {
-  std::string text;            ///< UTF-8; what comes before the wrong byte where there is one
-  std::optional<size_t> wrong; ///< offset of the first byte that begins no character
+  std::string text;            ///< UTF-8; if there is a wrong byte, the text before it
+  std::optional<size_t> wrong; ///< offset of the first byte that does not begin a character
 };
 
-/// `encoding` is known.
+/// `encoding` must be known.
 Decoded decoded(std::string_view bytes, const std::string& encoding);
 
-/// The bytes of a text in UTF-8; nothing where the encoding lacks one of its characters. `encoding` is known.
+/// The bytes of a text in UTF-8; nothing if the encoding lacks one of its characters. `encoding` must be known.
 std::optional<std::string> encoded(std::string_view text, const std::string& encoding);
 
-/// What a text says of itself: `; encoding: NAME` alone on its first or second line.
+/// The encoding that a text declares: `; encoding: NAME` alone on its first or second line.
 struct EncodingLine {
   std::string name;
   size_t offset = 0; ///< of the name

@@ -14,13 +14,13 @@ constexpr uint64_t hashBytes(std::string_view bytes, uint64_t seed = kHashSeed) 
   return seed;
 }
 
-// Of whole numbers: each bit of each one changes all of the hash.
+// Hash of whole numbers: each bit of each number affects the whole hash.
 constexpr uint64_t hashNumber(uint64_t number, uint64_t seed) {
   seed = (seed ^ number) * 0x9E3779B97F4A7C15ull;
   return seed ^ (seed >> 32);
 }
 
-// Of a text, eight bytes at a time.
+// Hash of a text, eight bytes at a time.
 inline uint64_t hashText(std::string_view text, uint64_t seed) {
   seed = hashNumber(text.size(), seed);
   uint64_t word = 0;

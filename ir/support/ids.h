@@ -1,4 +1,4 @@
-// Id<Tag>: a small typed index into a vector; ids of different tags do not mix.
+// Id<Tag>: a small typed index into a vector; ids of different tags are different types.
 #pragma once
 
 #include <compare>

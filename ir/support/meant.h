@@ -7,12 +7,13 @@
 
 namespace rung {
 
-/// With the fix only where nothing else can have been meant: what a tool puts there unasked must not change the logic.
+/// With the fix only if nothing else can have been meant: a tool that applies it without asking must not change the
+/// logic.
 inline void suggest(DiagBuilder& report, SourceRange range, const text::Likely& likely) {
   report.meant(likely.certain ? range : SourceRange{}, likely.word);
 }
 
-/// Of a word that is at all these places: the fix corrects all of them.
+/// The same for a word that occurs at all these positions: the fix corrects all of them.
 inline void suggestAt(DiagBuilder& report, std::span<const SourceRange> places, const text::Likely& likely) {
   suggest(report, places.front(), likely);
   for (const SourceRange place : places.subspan(1))

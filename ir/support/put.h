@@ -1,4 +1,4 @@
-// Formatted text to the end of a text. fmt::format_to would be compiled anew, with all of its formatting, in each
+// Appends formatted text to a string. fmt::format_to would be compiled again, with all of its formatting, in each
 // source.
 #pragma once
 #include <string>

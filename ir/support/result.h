@@ -1,5 +1,5 @@
-// Result<T>: a value, or what went wrong in the environment (files, libraries, limits) as a text.
-// Mistakes in a user's program are not a Result; they go to Diagnostics.
+// Result<T>: a value, or an error of the environment (files, libraries, limits) as a text. Mistakes in a user's program
+// are not a Result; they go to Diagnostics.
 #pragma once
 #include <stdexcept>
 #include <string>
@@ -42,7 +42,7 @@ public:
     RUNG_CHECK(!ok(), "error() of a good Result");
     return std::get<1>(state_).message;
   }
-  /// The error in the form that another Result takes: `if (!r) return r.failure();`
+  /// The error, for return as another Result: `if (!r) return r.failure();`
   Failure failure() const { return Failure{error()}; }
 
 private:
@@ -68,9 +68,9 @@ private:
   std::variant<std::monostate, Failure> state_;
 };
 
-// What fails within the compiler as a Result.
+// Turns failed checks in the compiler into a Result.
 
-/// What `body` gives, a Result; a failure with the text of a RUNG_CHECK in it, which then does not end the process.
+/// The Result of `body`; if a RUNG_CHECK fails in it, a failure with its text instead of the end of the process.
 template <class Body>
 auto contained(Body body) -> decltype(body()) {
   try {

@@ -1,4 +1,4 @@
-// Sums and products that stay at the largest number where there would be a larger one.
+// Sums and products that saturate at the largest number.
 #pragma once
 #include <cstdint>
 

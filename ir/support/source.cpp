@@ -1,4 +1,4 @@
-// Line tables are computed once when a text is added; every later question is a binary search.
+// Line tables are computed once when a text is added; every query is a binary search.
 #include "ir/support/source.h"
 
 #include <algorithm>
@@ -18,18 +18,18 @@
 namespace rung {
 
 struct SourceManager::File {
-  /// Characters before every kStep-th byte are counted once, so that the column in a line of megabytes costs no
-  /// walk over the line.
+  /// The characters before every kStep-th byte are counted once, so that the column in a line of megabytes does not
+  /// require a walk over the line.
   static constexpr size_t kStep = 1024;
 
   std::string name;
   std::string text;
   uint32_t base = 0;                      ///< position of the first byte
   std::vector<uint32_t> lineStarts;       ///< offsets; never empty
-  std::vector<uint32_t> charactersBefore; ///< per kStep bytes; empty for a text in ASCII
-  std::string encoding;                   ///< that the text was in; "": in the one that it still is in
+  std::vector<uint32_t> charactersBefore; ///< by kStep bytes; empty for a text in ASCII
+  std::string encoding;                   ///< the original encoding; "": unchanged
   std::optional<Undecoded> undecoded;
-  std::string afterEnd; ///< bytes, from the end-of-file mark on
+  std::string afterEnd; ///< the bytes from the end-of-file mark on
 
   void index();
   size_t charactersUpTo(size_t offset) const;
@@ -106,7 +106,8 @@ FileId SourceManager::addBytes(std::string name, std::string bytes) {
   std::string encoding = line ? line->name : encoding_;
   std::optional<Undecoded> undecoded;
   const bool known = encoding.empty() || knowsEncoding(encoding);
-  // Whatever was said of the file before: the editor that saved it has made it UTF-8.
+  // A byte order mark takes precedence over a declared encoding: the editor that saved the file has converted it to
+  // UTF-8.
   if (known && !encoding.empty() && bytes.starts_with(kByteOrderMark)) encoding = "UTF-8";
   Decoded text = encoding.empty() || !known ? Decoded{.text = bytes, .wrong = {}} : decoded(bytes, encoding);
   const size_t end = text::upToEndOfFile(text.text).size();

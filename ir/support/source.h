@@ -1,7 +1,6 @@
-// Source texts and positions in them.
-// Every byte of every file has one 32-bit position, so that a position needs no file beside it. A file of n bytes owns
-// n + 1 positions (the last one is its end). Position 0 belongs to no file and means "no position".
-// Texts never move and live as long as their SourceManager: string_views into them are safe to keep.
+// Source texts and positions in them. Every byte of every file has its own 32-bit position, so that a position
+// identifies its file. A file of n bytes owns n + 1 positions (the last one is its end). Position 0 belongs to no file
+// and means "no position". Texts never move and live as long as their SourceManager: string_views into them stay valid.
 #pragma once
 
 #include <compare>
@@ -27,7 +26,7 @@ struct SourcePos {
   constexpr auto operator<=>(const SourcePos&) const = default;
 };
 
-/// Half-open: end is the first position after it. begin == end marks a place between two characters.
+/// Half-open: end is the first position after it. begin == end is a position between two characters.
 struct SourceRange {
   SourcePos begin;
   SourcePos end;
@@ -36,10 +35,10 @@ struct SourceRange {
   constexpr bool operator==(const SourceRange&) const = default;
 };
 
-/// From the beginning of a to the end of b; both must lie in one file.
+/// From the beginning of a to the end of b; both must be in one file.
 constexpr SourceRange join(SourceRange a, SourceRange b) { return {a.begin, b.end}; }
 
-/// A position as people write it: line and column count from 1, the column in characters (UTF-8 code points).
+/// A position for display: line and column count from 1, the column in characters (UTF-8 code points).
 struct LineCol {
   std::string_view file;
   uint32_t line = 0;
@@ -51,43 +50,44 @@ struct LineCol {
 class SourceManager {
 public:
   SourceManager();
-  /// Files are these and no others, by their paths as they are asked for; nothing is read from a disk.
+  /// With these texts as the only files, by their paths as requested; nothing is read from a disk.
   explicit SourceManager(std::map<std::string, std::string> texts);
   ~SourceManager();
   SourceManager(SourceManager&&) noexcept;
   SourceManager& operator=(SourceManager&&) noexcept;
 
-  /// In what files are written that do not say it (encodingLine); "", the beginning: in UTF-8, or the dialect finds
-  /// out.
+  /// The encoding of files that do not declare theirs (encodingLine); "", the default: UTF-8, or what the dialect
+  /// detects.
   void setEncoding(std::string name) { encoding_ = std::move(name); }
-  /// Reads a file. Its text is UTF-8, whatever it is written in, and ends at a DOS end-of-file mark. Fails when it
-  /// cannot be read or when the positions are used up (4 GB of text).
+  /// Reads a file. Its text is converted to UTF-8 and ends at a DOS end-of-file mark. Fails if it cannot be read or if
+  /// the sources have more than 256 MB in all.
   Result<FileId> addFile(const std::string& path);
-  /// As a file that has these bytes.
+  /// Adds a file with these bytes.
   FileId addBytes(std::string name, std::string bytes);
-  /// A text in UTF-8.
+  /// Adds a text in UTF-8.
   FileId addBuffer(std::string name, std::string text);
-  /// What is in a folder, "" for the working directory, in no order; nothing where there is no such folder.
+  /// The names in a folder, "" for the working directory, unordered; empty if there is no such folder.
   std::vector<std::string> namesIn(const std::string& folder) const;
 
   size_t fileCount() const { return files_.size(); }
   std::string_view name(FileId file) const;
   std::string_view text(FileId file) const;
-  /// Of a file that is not written in what it, or setEncoding, says. Its text is the bytes of the file then.
+  /// Why a file could not be decoded from its declared encoding or that of setEncoding. Its text is then the bytes of
+  /// the file.
   struct Undecoded {
     std::string encoding;
-    bool known = true; ///< false: no encoding has this name, and the file says it at `offset`
-    size_t offset = 0; ///< of the byte that begins no character
+    bool known = true; ///< false: there is no encoding of this name, which the file declares at `offset`
+    size_t offset = 0; ///< of the byte that does not begin a character
   };
   const std::optional<Undecoded>& undecoded(FileId file) const;
-  /// Whether the file, or setEncoding, says what the file is written in.
+  /// Whether the file, or setEncoding, determines the file's encoding.
   bool hasEncoding(FileId file) const;
-  /// The encoding of a file that says it by a line of its own (encodingLine); "" where it does not, or is another one.
+  /// The encoding that the file declares by a separate line (encodingLine); "" if it does not, or has another encoding.
   std::string_view saidEncoding(FileId file) const;
-  /// Whether this is the comment by which a file says its encoding.
+  /// Whether this is the comment by which a file declares its encoding.
   bool isEncodingComment(SourceRange comment) const;
-  /// The bytes of a file that has `text` instead of its own: in its encoding, with its end-of-file mark. Nothing where
-  /// the encoding lacks a character.
+  /// The bytes of a file with `text` as its new contents: in its encoding, with its end-of-file mark. Nothing if the
+  /// encoding lacks a character.
   std::optional<std::string> bytesOf(FileId file, std::string text) const;
   uint32_t lineCount(FileId file) const;
   /// The text of a line (from 1) without its line end, O(1).
@@ -96,7 +96,7 @@ public:
   SourcePos position(FileId file, size_t offset) const;
   SourceRange range(FileId file, size_t begin, size_t end) const;
 
-  /// These take valid positions only; O(log n).
+  /// These functions take valid positions only; O(log n).
   FileId fileOf(SourcePos pos) const;
   size_t offsetOf(SourcePos pos) const;
   LineCol lineCol(SourcePos pos) const;
@@ -108,14 +108,14 @@ public:
     size_t offset = 0;
   };
   LineStart lineStart(SourcePos pos) const;
-  /// The characters of a range that lies in one file.
+  /// The characters of a range within one file.
   std::string_view text(SourceRange range) const;
 
 private:
   struct File;
   const File& file(FileId id) const;
 
-  std::optional<std::map<std::string, std::string>> texts_; // nothing: files of the system
+  std::optional<std::map<std::string, std::string>> texts_; // nothing: files of the file system
   std::vector<std::unique_ptr<File>> files_;
   std::string encoding_;
   uint32_t nextBase_ = 1;

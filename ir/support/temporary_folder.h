@@ -1,4 +1,4 @@
-// A folder for files of the moment: made with its owner, gone with it.
+// A temporary folder, which is created by the constructor and removed by the destructor.
 #pragma once
 
 #include <cerrno>
@@ -29,10 +29,10 @@ public:
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
 
-  /// False: it could not be made, errno says why.
+  /// False: it could not be created, errno says why.
   bool ok() const { return !path_.empty(); }
   std::filesystem::path operator/(std::string_view name) const { return path_ / name; }
-  /// Of a file in it; nothing when it cannot be read.
+  /// The contents of a file in it; nothing if the file cannot be read.
   std::optional<std::string> contentsOf(std::string_view name) const {
     std::ifstream in(path_ / name, std::ios::binary);
     std::string bytes((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());

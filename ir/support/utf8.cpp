@@ -1,4 +1,4 @@
-// UTF-8 by utf8proc, which decodes as RFC 3629 has it: no overlong forms, no surrogates, nothing above U+10FFFF.
+// UTF-8 by utf8proc, which decodes according to RFC 3629: no overlong forms, no surrogates, nothing above U+10FFFF.
 #include "ir/support/utf8.h"
 
 #include <algorithm>
@@ -25,7 +25,7 @@ CodePoint decodeUtf8(std::string_view text, size_t offset) {
 size_t findInvalidUtf8(std::string_view text) {
   size_t offset = 0;
   while (offset < text.size()) {
-    // Sources are ASCII almost everywhere: eight bytes at a time.
+    // Sources are mostly ASCII, which is read eight bytes at a time.
     uint64_t word = 0;
     while (offset + sizeof word <= text.size()) {
       std::memcpy(&word, text.data() + offset, sizeof word);

@@ -1,5 +1,5 @@
-// The hash of a module (see text.h): of all that its text shows, without making the text. Structs are taken apart into
-// all of their members, so that a member which is added cannot be forgotten here.
+// The hash of a module (see text.h) over everything that its text shows, without making the text. Structs are
+// decomposed into all of their members, so that an added member cannot be forgotten here.
 #include <concepts>
 
 #include "ir/support/hash.h"
@@ -110,8 +110,8 @@ private:
     all(static_cast<uint32_t>(kind), cond, value, target, callee, targets);
   }
 
-  // Operations are nearly all of a module. Their operands and results follow those of the one before, and how many
-  // results one has is known by its row and its operands.
+  // Most of a module is operations. Their operands and results follow those of the operation before, and the number of
+  // results is determined by the row and the operands.
   void add(const Op& op) {
     const auto& [code, type, argCount, resultCount, firstArg, result, ref, count, imm, line] = op;
     number(uint64_t{line} << 32 | uint64_t{argCount} << 16 | static_cast<uint64_t>(code) << 8 |

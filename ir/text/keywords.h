@@ -1,4 +1,4 @@
-// Words of the text form that mean bits and enumerators; printer and parser read the same lists.
+// Words of the text form for bits and enumerators; printer and parser use the same lists.
 #pragma once
 #include <cstdint>
 #include <span>
@@ -43,7 +43,7 @@ inline constexpr Keyword kMessageOps[] = {{"clear", RUNG_MESSAGE_CLEAR},
                                           {"log", RUNG_MESSAGE_LOG}};
 inline constexpr Keyword kWeights[] = {{"mostly", kMostly}, {"seldom", kSeldom}};
 
-// Null when there is none.
+// Null if there is none.
 constexpr const Keyword* findKeyword(std::span<const Keyword> list, std::string_view word) {
   for (const Keyword& keyword : list)
     if (keyword.word == word) return &keyword;
@@ -55,7 +55,7 @@ constexpr const Keyword* findKeyword(std::span<const Keyword> list, uint32_t val
   return nullptr;
 }
 
-// What a name without quotes may have; the first character is not a digit.
+// Whether a name without quotes may contain the character; the first one must not be a digit.
 constexpr bool isNameChar(char c) { return text::isLetter(c) || text::isDigit(c) || c == '_' || c == '@' || c == '.'; }
 
 } // namespace rung::ir

@@ -53,7 +53,8 @@ private:
     scanner_.fail(fmt::format("there is no declaration '{}'", word));
   }
 
-  // A name that later lines may refer to. Of equal names the first counts; the others are referred to by number.
+  // Declares a name that later lines may refer to. Of equal names the first one counts; the others are referred to by
+  // number.
   template <class Vector>
   std::string declare(NameIndex& names, const Vector& items) {
     std::string name = scanner_.name();
@@ -71,7 +72,7 @@ private:
     module_.messages.push_back(std::move(message));
   }
 
-  // Flags as words in any order, and what no word names as #N.
+  // Flags as words in any order, and unnamed ones as #N.
   uint32_t parseFlags(std::span<const Keyword> list) {
     uint32_t flags = 0;
     for (bool found = true; found && scanner_.ok();) {
@@ -124,7 +125,7 @@ private:
   }
 
   ParsedPlace parsePlaceAs(PlaceForm form) { return parsePlace(scanner_, module_, names_.spaces, form); }
-  // Byte offset of a place that declarations name.
+  // Byte offset of a place in a declaration.
   uint32_t byteOf(const ParsedPlace& place) {
     const auto byte = static_cast<uint64_t>(place.bitOffset) / 8;
     if (byte > UINT32_MAX) scanner_.fail("offset too large");

@@ -1,4 +1,4 @@
-// The printer of the text form (see text.h). It trusts nothing: broken modules print too.
+// The printer of the text form (see text.h). It assumes nothing: invalid modules can be printed, too.
 #include <bit>
 #include <charconv>
 #include <cmath>
@@ -50,7 +50,7 @@ bool isWord(std::string_view name) {
 
 std::string nameText(std::string_view name) { return isWord(name) ? std::string(name) : inQuotes(name); }
 
-// Names of one kind, as a reference writes them: by name when it is unique, else by index.
+// Names of one kind for references: the name if it is unique, otherwise the index.
 class References {
 public:
   void add(std::string_view name) {
@@ -66,10 +66,10 @@ public:
 
 private:
   std::vector<std::string> texts_;
-  std::unordered_map<std::string_view, uint32_t> first_; // with each name
+  std::unordered_map<std::string_view, uint32_t> first_; // the first item with each name
 };
 
-// What names a place, for comments.
+// The key of a place's name, for comments.
 struct PlaceKey {
   uint32_t space;
   int64_t bitOffset;
@@ -124,7 +124,7 @@ private:
   void put(fmt::format_string<Args...> format, Args&&... args) {
     rung::put(out_, format, std::forward<Args>(args)...);
   }
-  // Operations are nearly all of the text: they are put together without a format.
+  // Most of the text is operations, which are therefore not formatted by fmt.
   void add(std::string_view text) { out_ += text; }
   void add(uint64_t number) {
     char text[20];
@@ -258,7 +258,7 @@ std::string Printer::literal(Type type, int64_t bits) const {
   const uint32_t width = bitWidth(type);
   if (width >= 64 || width <= 1) return std::to_string(bits);
   const uint64_t sign = 1ull << (width - 1);
-  if ((raw >> width) != 0) return fmt::format("bits(0x{:X})", raw); // more than the type holds
+  if ((raw >> width) != 0) return fmt::format("bits(0x{:X})", raw); // more bits than the type has
   return std::to_string(static_cast<int64_t>((raw ^ sign) - sign));
 }
 
@@ -286,7 +286,7 @@ std::string Printer::attribute(const Rung& rung, const Op& op) const {
   return {};
 }
 
-// The name of what is accessed; empty when there is none.
+// The name of the accessed place; empty if there is none.
 std::string_view Printer::comment(const Op& op) const {
   const Attr attr = opInfo(op.code).attr;
   if (attr == Attr::Slot)

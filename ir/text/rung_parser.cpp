@@ -107,7 +107,7 @@ void RungParser::parseResults(Op& op) {
   scanner_.expect('=');
 }
 
-// Where the type is not written, it is that of the only result.
+// If the type is not written, it is that of the only result.
 void RungParser::parseName(Op& op) {
   const std::string_view word = scanner_.word();
   const size_t dot = word.find('.');

@@ -1,4 +1,4 @@
-// Parses what is between the braces of a rung, and its transfer. Part of parser.cpp's work, in a file of its own.
+// Parses the contents of a rung's braces, and its transfer. A part of the parser in parser.cpp.
 #pragma once
 #include <map>
 #include <string>
@@ -11,9 +11,9 @@ namespace rung::ir {
 
 using NameIndex = std::map<std::string, uint32_t, std::less<>>;
 
-// Index after a reference: `-`, `#N` or a known name.
+// The index from a reference: `-`, `#N` or a known name.
 uint32_t parseReference(Scanner& scanner, const NameIndex& names, std::string_view kind);
-// SPACE[unit] or SPACE[unit+rest], in bytes; a bit place as SPACE[unit.bit].
+// A place SPACE[unit] or SPACE[unit+rest], in bytes; that of a bit as SPACE[unit.bit].
 struct ParsedPlace {
   uint32_t space = RUNG_NONE;
   int64_t bitOffset = 0;
@@ -33,10 +33,10 @@ public:
   RungParser(Scanner& scanner, const Module& module, const ModuleNames& names, Rung& rung)
       : scanner_(scanner), module_(module), names_(names), rung_(rung) {}
 
-  // Source lines and operations up to the closing brace.
+  // Parses source lines and operations up to the closing brace.
   void parseBody();
-  // The name of the callee of a call, to be resolved when all routines are known; empty for other transfers.
-  // `-` and `#N` are resolved at once.
+  // The name of the callee of a call, to be resolved when all routines are known; empty for other transfers. `-` and
+  // `#N` are resolved at once.
   std::string parseTransfer();
 
 private:
@@ -44,7 +44,7 @@ private:
   void parseOp();
   void parseResults(Op& op);
   void parseName(Op& op);
-  // Whether there is an attribute, so that a comma is before the operands.
+  // Whether there was an attribute, so that a comma precedes the operands.
   bool parseAttribute(Op& op);
   void parseOperands(Op& op, bool comma);
   ValueId parseValue();

@@ -1,5 +1,5 @@
-// Reads words, numbers and texts of the text form, character by character. After the first error it is at the end
-// of the text and gives empty answers, so that callers need not check every step.
+// Reads words, numbers and texts of the text form, character by character. After the first error it is at the end of
+// the text and returns empty results, so that callers need not check every step.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -14,20 +14,20 @@ public:
   explicit Scanner(std::string_view text) : text_(text) {}
 
   bool ok() const { return message_.empty(); }
-  // Records the first error, at the place of the latest token.
+  // Records the first error, at the latest token.
   void fail(std::string message);
   // The recorded error with its line and column.
   ParseError error() const;
 
-  // True when the next character of the line is `c`; `accept` moves over it.
+  // Whether the next character of the line is `c`; `accept` also consumes it.
   bool peek(char c);
   bool accept(char c);
   void expect(char c);
-  // True when the next word of the line is `word`, and moves over it.
+  // Consumes the next word of the line if it is `word`; false otherwise.
   bool acceptWord(std::string_view word);
   void expectWord(std::string_view word);
 
-  bool peekName(); // a word or a text comes next
+  bool peekName(); // whether a word or a text comes next
   bool peekNumber();
   std::string_view word();
   std::string name(); // a word or a text
@@ -38,7 +38,7 @@ public:
   double real();
   std::string_view hexDigits();
 
-  // The end of a line, and all empty lines after it.
+  // Consumes the end of a line, and all empty lines after it.
   void endLine();
   bool atEnd();
 

@@ -1,7 +1,7 @@
 // The textual form of a module: complete, canonical, and readable. Grammar: README.md beside this file.
 //
 // For every module that passes the verifier, parse(print(m)) equals m; for every printed text, print(parse(t)) equals
-// t. The printer also accepts modules that do not pass, so that the verifier can show what it complains about.
+// t. The printer also accepts modules that do not pass, so that the verifier can show its errors in them.
 #pragma once
 #include <functional>
 #include <optional>
@@ -14,16 +14,17 @@ namespace rung::ir {
 
 std::string print(const Module& module);
 
-// Of a module that passes the verifier: equal for modules with the same text, and else most likely not; on every
-// machine the same. Much faster than printing.
+// For a module that passes the verifier: equal for modules with the same text, otherwise different with high
+// probability; the same on every machine. Much faster than printing.
 uint64_t hashOf(const Module& module);
 
-// One rung as `print` shows it. `remark(i)` is a text to put under operation i (or under the transfer, for
-// i == ops.size()); empty: none. The remark goes into comments, so the result still parses as part of a module.
+// One rung as `print` shows it. `remark(i)` returns a text to be printed under operation i (or under the transfer, for
+// i == ops.size()); empty: none. Remarks are printed as comments, so the result can still be parsed as part of a
+// module.
 using Remark = std::function<std::string(size_t index)>;
 std::string printRung(const Module& module, RoutineId routine, uint32_t rung, const Remark& remark = {});
 
-// Where and why a text is not a module; line and column (in bytes) count from 1.
+// The position and the reason of a parse error; line and column (in bytes) count from 1.
 struct ParseError {
   uint32_t line = 0;
   uint32_t column = 0;
@@ -32,7 +33,7 @@ struct ParseError {
 
 struct ParseOutcome {
   std::optional<Module> module;
-  ParseError error; // the first; when there is no module
+  ParseError error; // the first one; valid if there is no module
 };
 
 // Checks the form only; run the verifier on the result.

@@ -1,6 +1,6 @@
-// Dead operations: a result that nothing uses is not computed; reading has no effect, so loads go too. An if or a loop
-// goes with all that is in it, notes too, when it has neither an effect nor a result that is used; results of an if go
-// one by one. Other notes stay.
+// Dead operations: a result that is not used is not computed; reading has no effect, so unused loads are removed, too.
+// An if or a loop is removed with its contents, including notes, if it has neither an effect nor a used result; results
+// of an if are removed one by one. Other notes remain.
 #include <algorithm>
 
 #include "ir/core/op_info.h"
@@ -40,7 +40,7 @@ private:
     return false;
   }
 
-  // effect_[i] of an if, else or loop: whether something in it has an effect; for an if, also in its else.
+  // effect_[i] of an if, else or loop: whether anything in it has an effect; for an if, also in its else.
   void findEffects() {
     effect_.assign(rung_->ops.size(), 0);
     std::vector<uint32_t> open;
@@ -73,15 +73,15 @@ private:
         keep_[i] = 1;
       } else {
         changes_ = true;
-        if (op(i).code == OpCode::Else) // with its notes
+        if (op(i).code == OpCode::Else) // including its notes
           std::fill(keep_.begin() + i, keep_.begin() + regions_[i].end, uint8_t{0});
         else if (op(i).code == OpCode::EndIf || op(i).code == OpCode::EndLoop)
-          i = regions_[i].begin; // all of the region
+          i = regions_[i].begin; // the whole region
       }
     }
   }
 
-  // Whether operation i stays; those after it are decided.
+  // Whether operation i is kept; those after it have been decided.
   bool decide(uint32_t i) {
     const Op& o = op(i);
     if (o.code == OpCode::Else) {
@@ -99,12 +99,12 @@ private:
 
   bool isNeeded(uint32_t i) const {
     const Op& o = op(i);
-    if (o.code == OpCode::If || o.code == OpCode::Loop) return true; // its end is
+    if (o.code == OpCode::If || o.code == OpCode::Loop) return true; // its end is kept
     if (o.code == OpCode::EndIf || o.code == OpCode::EndLoop) return effect_[regions_[i].begin] != 0 || anyUsed(o);
     return o.code == OpCode::Note || hasEffect(o) || anyUsed(o);
   }
 
-  // The operands of an endif or else for which the endif's results are used.
+  // Marks as used the operands of an endif or else for which the endif's results are used.
   void useYields(const Op& op, const Op& end) {
     for (uint32_t k = 0; k < op.argCount; ++k) {
       if (isUsed(end, k))

@@ -1,6 +1,7 @@
-// Folding: operations with known operands become constants (by the one evaluator, eval.h), others get simpler
-// (simplify.cpp), of an `if` whose condition is known only the region that runs stays, loops of no pass or of one are
-// opened, and transfers whose condition or number is known lose it.
+// Folding: operations with known operands become constants (by the common evaluator, eval.h), others are simplified
+// (simplify.cpp); of an `if` with a known condition only the region that runs is kept; loops of one iteration are
+// replaced by their contents, loops of none are removed; and transfers with a known condition or number become
+// unconditional.
 #include "ir/core/ops.h"
 #include "ir/core/regions.h"
 #include "ir/transforms/passes.h"
@@ -20,7 +21,7 @@ public:
     changed_ = false;
     writer_.start(rung);
     findRegions(rung, regions_);
-    // Each returns the last operation that it has dealt with.
+    // Each call returns the last operation that it has handled.
     for (uint32_t i = 0; i < rung.ops.size(); ++i) i = fold(i);
     if (changed_) writer_.finish(rung);
     foldTransfer(rung.transfer, number);
@@ -35,7 +36,7 @@ private:
   };
 
   const Op& op(uint32_t i) const { return rung_->ops[i]; }
-  // What replaces the results of operation i, from the result `skip` on: the operands of `from`.
+  // Maps the results of operation i, from the result `skip` on, to the operands of `from`.
   void resultsAre(uint32_t i, const Op& from, uint32_t skip = 0) {
     for (uint32_t k = 0; k < from.argCount; ++k)
       writer_.replace({op(i).result.index + skip + k}, writer_.mappedArg(from, k));
@@ -88,7 +89,7 @@ private:
       resultsAre(i, op(i));
     } else {
       writer_.copy(op(i));
-      // What both regions yield was there before.
+      // If both regions yield the same value, it existed before.
       for (uint32_t k = 0; k < op(i).argCount; ++k)
         if (const ValueId yield = writer_.mappedArg(op(i), k); yield == open_.back().yields[k]) {
           writer_.replace({op(i).result.index + k}, yield);

@@ -1,5 +1,5 @@
-// Forced bits: after every operation that may write one, it is what it is forced to be again, before anything can read
-// it. A store of which all bits are forced stores these in place of its own.
+// Forced bits: after every operation that may write a forced bit, the bit is set to its forced value again, before
+// anything can read it. A store whose bits are all forced stores the forced values instead.
 #include "ir/transforms/force.h"
 
 #include <algorithm>
@@ -55,20 +55,20 @@ private:
     }
   }
 
-  // The bits of a byte that lie in what the operation may write.
+  // The bits of a byte that the operation may write.
   uint32_t writtenBits(uint32_t byte) const {
     uint32_t bits = 0;
     for (uint32_t bit = 0; bit < 8; ++bit)
       if (byte * 8 + bit - written_.first < written_.count) bits |= 1u << bit;
     return bits;
   }
-  // All bits that the operation writes are forced.
+  // Whether all bits that the operation writes are forced.
   bool covers(std::span<const rung_forced_byte> reached) const {
     int bits = 0;
     for (const rung_forced_byte& byte : reached) bits += std::popcount(byte.mask & writtenBits(byte.byte));
     return bits == static_cast<int>(written_.count);
   }
-  // What it then writes.
+  // The value that it then writes.
   uint64_t bitsOf(std::span<const rung_forced_byte> reached) const {
     uint64_t bits = 0;
     for (const rung_forced_byte& byte : reached) {
@@ -89,7 +89,7 @@ private:
   const Module& module_;
   std::span<const rung_forced_byte> forced_;
   RungRewriter rewriter_;
-  BitRange written_; // by the operation that was asked for last
+  BitRange written_; // of the last operation queried
 };
 
 } // namespace

@@ -1,7 +1,7 @@
-// Inlines each routine that has one call and begins no task: its rungs follow the rung with the call. The call becomes
-// a step to the next rung, or a jump past them where it has a condition; a return becomes a jump to the rung after
-// them. Entering and leaving is then a jump within a chunk, and passes and compilers see across it. Each rung keeps its
-// routine's name and its number, for messages, profiles and explanations.
+// Inlines each routine that has one call and is not the entry of a task: its rungs follow the rung with the call. The
+// call becomes a step to the next rung, or if it is conditional a jump past them; a return becomes a jump to the rung
+// after them. Entering and leaving is then a jump within a chunk, across which passes and compilers can optimise. Each
+// rung keeps its routine's name and its number, for messages, profiles and explanations.
 #include <algorithm>
 
 #include "ir/core/ops.h"
@@ -10,7 +10,7 @@
 namespace rung::ir {
 namespace {
 
-// A rung as the source has it.
+// The position of a rung in the source.
 struct Place {
   uint32_t routine;
   uint32_t rung;
@@ -74,7 +74,7 @@ private:
     return out;
   }
 
-  // Its rungs and those of the routines inlined into it, in their new order; fills at_ and after_.
+  // The routine's rungs and those of the routines inlined into it, in their new order; fills at_ and after_.
   std::vector<Place> orderOf(uint32_t routine) {
     std::vector<Place> order;
     std::vector<Place> open{{routine, 0}};
@@ -114,7 +114,7 @@ private:
     for (uint32_t& target : transfer.targets) target = at_[from.routine][target];
   }
 
-  // After the last rung the routine returns.
+  // A jump past the last rung becomes a return.
   static void jump(Transfer& transfer, uint32_t to, uint32_t count) {
     transfer.kind = to < count ? TransferKind::Goto : TransferKind::Ret;
     transfer.target = to < count ? to : 0;
@@ -136,10 +136,10 @@ private:
   }
 
   Module& module_;
-  std::vector<uint32_t> calls_;           // by routine: how many; a task's begin counts as many
+  std::vector<uint32_t> calls_;           // by routine: number of calls; a task's entry counts as several
   std::vector<std::vector<uint32_t>> at_; // by routine and rung: the rung's new number
-  std::vector<uint32_t> after_;           // by routine that is inlined: the number after its last rung
-  std::vector<RoutineId> now_;            // by routine that stays
+  std::vector<uint32_t> after_;           // by inlined routine: the number after its last rung
+  std::vector<RoutineId> now_;            // by remaining routine
 };
 
 } // namespace

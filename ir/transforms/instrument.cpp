@@ -1,5 +1,5 @@
 // Profiling: each rung is measured from its first operation to its last. Conditions of the transfer are values of the
-// rung and thus within the measurement; what a call does is not.
+// rung and thus included; a callee's work is not.
 #include "ir/core/ops.h"
 #include "ir/transforms/passes.h"
 

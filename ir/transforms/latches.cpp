@@ -1,7 +1,7 @@
-// A latch is read where it comes from, as long as that still holds the same: what a task copies when it begins, and
-// nothing writes until the task has ended. A latch that is not read any more is no longer copied.
+// A latch that a task copies at its beginning is read from its source instead, as long as the source has the same
+// value: nothing writes it until the task has ended. A latch without reads is no longer copied.
 //
-// Only of a task whose run is one piece: between two parts of a run the machine, the NC and other tasks write.
+// Only for a task whose run is undivided: between two parts of a run the machine, the NC and other tasks write.
 #include <algorithm>
 
 #include "ir/core/memory_use.h"
@@ -18,7 +18,7 @@ bool contains(const BitRange& whole, const BitRange& part) {
 }
 
 struct Latch {
-  uint32_t task = kNoTask; // whose runs take it
+  uint32_t task = kNoTask; // the task that copies it
   BitRange source;
   BitRange held;
 
@@ -27,7 +27,7 @@ struct Latch {
   }
 };
 
-// Only rungs know its name, and its bits are numbered as those of its source are.
+// Only rungs know its name, and its bits are numbered like those of its source.
 bool isLatch(const Module& module, const Copy& copy) {
   const Space& to = module.at(copy.to);
   return !copy.masked && (to.flags & RUNG_SPACE_HIDDEN) != 0 && to.unitBytes == module.at(copy.from.space).unitBytes &&
@@ -41,7 +41,7 @@ void forCopies(const Module& module, Visit visit) {
       for (const Copy& copy : *copies) visit(copy);
 }
 
-// Those whose source nothing writes while they hold.
+// Latches whose source is not written while they are valid.
 std::vector<Latch> latchesOf(const Module& module) {
   std::vector<Latch> latches;
   for (uint32_t t = 0; t < module.tasks.size(); ++t) {
@@ -57,9 +57,9 @@ std::vector<Latch> latchesOf(const Module& module) {
   };
   forCopies(module, [&](const Copy& copy) {
     written(targetOf(copy), &copy);
-    if (copy.masked) written(bitsOf({copy.mask, copy.maskByte, copy.from.size})); // the mask is emptied
+    if (copy.masked) written(bitsOf({copy.mask, copy.maskByte, copy.from.size})); // the copy clears the mask
   });
-  if (latches.empty()) return latches; // as mostly
+  if (latches.empty()) return latches; // the usual case
   for (const Routine& routine : module.routines)
     forUses(module, routine, [&](const Use& use) {
       if (use.writes) written(use.place);

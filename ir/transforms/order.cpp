@@ -1,7 +1,8 @@
-// Order: operations come in the order of the source's lines, and within a line what an operation needs comes before the
-// first one that needs it, operand by operand. Front ends build a rung by nested calls, and C++ leaves the order of
-// arguments to its compiler: without this the same source would give another module from every build of this one.
-// Operations with effects keep their places, and what has none stays between the same two of them.
+// Order: operations are put in the order of the source's lines, and within a line in the order of need: operands
+// precede the first operation that needs them, operand by operand. Front ends build a rung by nested calls, and C++
+// leaves the order of evaluation of arguments to the compiler: without this pass the same source would give a different
+// module with every build of this compiler. Operations with effects keep their places, and those without effects stay
+// between the same two of them.
 #include <algorithm>
 #include <utility>
 
@@ -31,7 +32,7 @@ public:
 
 private:
   static constexpr uint32_t kNone = RUNG_NONE;
-  // What an operation is sorted by; not set: it stays, or is not numbered yet.
+  // The sort key of an operation; not set: it does not move, or has no number yet.
   struct Need {
     uint32_t line = 0;
     uint32_t number = kNone;
@@ -39,7 +40,7 @@ private:
     auto operator<=>(const Need&) const = default;
   };
 
-  // In which order the operations are needed: by those with an effect, from the first to the last, and by the exit.
+  // Numbers operations in the order of need: by those with an effect, from the first to the last, and by the exit.
   void number() {
     const std::vector<Op>& ops = rung_->ops;
     needed_.assign(ops.size(), {});
@@ -52,10 +53,10 @@ private:
         for (uint32_t k = 0; k < op.argCount; ++k) need(rung_->args[op.firstArg + k]);
     need(rung_->transfer.cond);
     need(rung_->transfer.value);
-    for (uint32_t value = 0; value < rung_->values.size(); ++value) need({value}); // values that are not used
+    for (uint32_t value = 0; value < rung_->values.size(); ++value) need({value}); // unused values
   }
 
-  // Operands before the operation, without recursion: rungs may be long.
+  // Numbers operands before the operation, without recursion: rungs may be long.
   void need(ValueId value) {
     if (!value.valid() || !isOpen(value)) return;
     path_.emplace_back(definedBy_[value.index], 0);
@@ -72,7 +73,7 @@ private:
     }
   }
 
-  // The line of an operation, or of an operand where that is further down.
+  // The line of an operation, or of an operand if that is further down.
   uint32_t lineOf(const Op& op) const {
     uint32_t line = op.line;
     for (uint32_t k = 0; k < op.argCount; ++k)
@@ -100,9 +101,9 @@ private:
 
   Rung* rung_ = nullptr;
   std::vector<Need> needed_;        // by operation
-  std::vector<uint32_t> definedBy_; // by value: an operation that may move
+  std::vector<uint32_t> definedBy_; // by value: a movable operation
   uint32_t next_ = 0;
-  std::vector<std::pair<uint32_t, uint32_t>> path_; // operation, and its operand that comes next
+  std::vector<std::pair<uint32_t, uint32_t>> path_; // an operation, and the operand to be numbered next
   std::vector<uint32_t> order_;
   bool changed_ = false;
   RungRewriter writer_;

@@ -11,12 +11,12 @@ namespace rung::ir {
 namespace {
 
 constexpr std::string_view kOptimising[] = {
-    // These decide the shape.
+    // These determine the shape.
     "inline", "carried",
-    // The first fold is followed by another one, of values that now are known to have been stored; removing dead loads
-    // before dead stores to registers leaves fewer readers of those.
+    // The first fold is repeated, with values that reuse has found to be stored; removing dead loads before dead stores
+    // to registers leaves fewer readers of those.
     "fold", "reuse", "fold", "dead", "transient", "dead",
-    // The versions that guards add are new rungs.
+    // Versions are new rungs.
     "versions", "fold", "reuse", "fold", "dead"};
 constexpr size_t kShapePasses = 2;
 

@@ -1,7 +1,7 @@
-// The passes that a module goes through between front end and layout, in one fixed order (pipeline.cpp). They keep
-// everything that a program shows: memory after every run of a task, messages, services and faults in their order, and
-// rungs, keys and source lines. Slots that are `transient` show nowhere and may differ. Time and space are nearly
-// linear in the size of the module.
+// The passes between front end and layout, in one fixed order (pipeline.cpp). They preserve everything that is visible
+// of a program: memory after every run of a task, messages, services and faults in their order, and rungs, keys and
+// source lines. Slots that are `transient` are not visible and may differ. Time and space are nearly linear in the size
+// of the module.
 #pragma once
 #include <span>
 #include <string_view>
@@ -16,12 +16,12 @@ struct PassOptions {
   bool verifyEach = false; // run the verifier after each pass; an error stops the process
 };
 
-// `module` has passed the verifier (mode Built). `shape` (or null) gets the module as it is when all is decided that
-// memory, chunks and tables follow from: its routines and rungs, their exits, and what they may access. What is done
-// afterwards can only take away from that.
+// `module` has passed the verifier (mode Built). `shape` (or null) receives the module at the stage that determines
+// memory, chunks and tables: its routines and rungs, their exits, and what they may access. Later passes can only
+// remove some of these.
 void runPasses(Module& module, const PassOptions& options, Module* shape = nullptr);
 
-// The names of the passes that `runPasses` runs to optimise, in their order.
+// The names of the optimising passes of `runPasses`, in their order.
 std::span<const std::string_view> optimisingPasses();
 
 } // namespace rung::ir

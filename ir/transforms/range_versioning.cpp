@@ -1,9 +1,10 @@
-// Guards: an index that a program computes from a cell has one of a few values in nearly every scan, but may be
-// anything. A rung that accesses places by such indices asks once what the cells hold, and has a way of its own for
-// each: for the numbers that the program puts there (index_values.h), where places are as good as fixed; else for small
-// numbers. There comparisons of indices with the ends of windows are known, windows are as small as the indices, so
-// that stores through them leave alone what is loaded elsewhere, and indices are masked where that changes nothing, so
-// that every compiler sees that they lie inside. The last way is the rung as it was.
+// Range versioning: an index that a program computes from a cell has one of a few values in nearly every scan, but may
+// have any. A rung that accesses places by such indices tests once what the cells hold, and gets a version for each
+// case: for the numbers that the program stores there (index_values.h), where places are practically fixed; otherwise
+// for small numbers. In a version, comparisons of indices with the ends of windows are known, windows are as small as
+// the ranges of the indices, so that stores through them do not invalidate other loads, and indices are masked where
+// that has no effect, so that every compiler sees that they are within the window. The last version is the unchanged
+// rung.
 #include <algorithm>
 #include <bit>
 
@@ -17,10 +18,10 @@
 namespace rung::ir {
 namespace {
 
-constexpr uint64_t kLimits[] = {64, 32, 16, 8}; // what counts as small
-constexpr size_t kMaxCells = 3;                 // of a rung
-constexpr uint32_t kLeastGain = 4;              // windows and comparisons: less costs more than it saves
-constexpr uint32_t kLeastGainFixed = 2;         // where all indices are known
+constexpr uint64_t kLimits[] = {64, 32, 16, 8}; // limits of small numbers
+constexpr size_t kMaxCells = 3;                 // most cells of a rung
+constexpr uint32_t kLeastGain = 4;              // known windows and comparisons: fewer cost more than they save
+constexpr uint32_t kLeastGainFixed = 2;         // if all indices are known
 
 bool isCompare(const Op& op) {
   return opInfo(op.code).result == Constraint::Bit && op.type != Type::Bit && isEvaluable(opInfo(op.code));
@@ -65,7 +66,7 @@ private:
     }
   }
 
-  // How many windows and comparisons are known where the cells hold what a way asks.
+  // Number of windows and comparisons that are known if the cells are in these ranges.
   uint32_t known(CellRanges held) {
     ranges_.run(*rung_, cells_, held);
     uint32_t count = 0;
@@ -86,7 +87,7 @@ private:
     for (Range& range : held) range.high = std::min(limit - 1, range.high);
     return held;
   }
-  // Each cell at its n-th value, or at its only one.
+  // Whether there is an n-th version; a cell with one value has it in all of them.
   bool hasValues(size_t n) const {
     const auto hasN = [&](const Cell& cell) { return values_.of(cell).size() > n; };
     const auto hasSome = [&](const Cell& cell) { return !values_.of(cell).empty(); };
@@ -102,7 +103,7 @@ private:
     return held;
   }
 
-  // ---- the rung anew
+  // ---- the rung with its versions
 
   void split(Rung& rung) {
     const Op first = rung.ops.front();
@@ -115,12 +116,12 @@ private:
         if (!becomesConstant(op) && !shrinks(op) && op.code != OpCode::Note) writer_.copy(op);
       writer_.turnElse(first, leaving());
     }
-    for (const Op& op : rung.ops) writer_.copy(op); // here alone with its notes
+    for (const Op& op : rung.ops) writer_.copy(op); // the unchanged rung, the only version that keeps its notes
     for (size_t n = 0; n < ways_.size(); ++n) writer_.closeIf(first, leaving(), transferValues());
     writer_.finish(rung);
   }
 
-  // Whether the cells hold what a way asks.
+  // Whether the cells are in the ranges of a version.
   ValueId question(const Op& at, const CellRanges& way) {
     ValueId all;
     for (size_t c = 0; c < cells_.size(); ++c) {
@@ -137,7 +138,7 @@ private:
     return all;
   }
 
-  // What the rung's transfer needs of it.
+  // The values that the rung's transfer uses.
   std::vector<ValueId> transferValues() const {
     std::vector<ValueId> values;
     for (const ValueId value : {rung_->transfer.cond, rung_->transfer.value})
@@ -163,8 +164,8 @@ private:
   bool shrinks(const Op& op) {
     if (!isWindow(op)) return false;
     const Range& index = ranges_.of(arg(*rung_, op, 0));
-    if (index.isOne() || index.high >= op.count) return false;       // of one folding makes a place
-    const uint64_t most = std::bit_ceil(index.high - index.low + 1); // elements, as many as a mask lets through
+    if (index.isOne() || index.high >= op.count) return false;       // folding makes it a fixed place
+    const uint64_t most = std::bit_ceil(index.high - index.low + 1); // number of elements that a mask lets through
     const ValueId base = constant(op, 0 - index.low);
     const ValueId number = writer_.putBefore(op, OpCode::Add, Type::I32, {writer_.mappedArg(op, 0), base}).result;
     const ValueId element = writer_.putBefore(op, OpCode::And, Type::I32, {number, constant(op, most - 1)}).result;

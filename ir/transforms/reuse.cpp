@@ -1,7 +1,7 @@
-// Reuse: an operation without effects that was done before with the same operands is not done again. A load takes the
-// value that an earlier load of the same place and type gave, or an earlier store put there, unless something between
-// may have written over it. Values of a region are known within it only; writes count from where they are, whether
-// their region runs or not; and a loop that writes at all makes everything unknown that was read before it.
+// Reuse: an operation without effects is not repeated with the same operands. A load takes the value of an earlier load
+// of the same place and type, or of an earlier store, unless an operation between may have overwritten it. Values of a
+// region are known within it only; writes count from where they are, whether their region runs or not; and a loop with
+// any write invalidates everything that was read before it.
 #include <algorithm>
 #include <bit>
 #include <utility>
@@ -17,8 +17,8 @@
 namespace rung::ir {
 namespace {
 
-// The values that a rung has so far, by what they are: an operation on operands, or what a place of memory held at
-// some time. Scoped: what was entered in a region is forgotten at its end, and an older entry shows again.
+// The values of a rung so far, by their keys: an operation on operands, or the contents of a place in memory at some
+// time. Scoped: entries of a region are removed at its end, and an older entry becomes visible again.
 
 struct ValueKey {
   OpCode code{};
@@ -35,12 +35,12 @@ public:
   struct Entry {
     ValueKey key;
     ValueId value;
-    uint32_t time; // when memory held it; 0 for what always holds
+    uint32_t time; // time at which memory held it; 0 for values independent of memory
     uint32_t bucket;
     uint32_t below;
   };
 
-  // Empty, for so many operations of a rung.
+  // Clears the table, for a rung with this number of operations.
   void clear(size_t operations) {
     heads_.assign(std::bit_ceil(operations + 1), RUNG_NONE);
     entries_.clear();
@@ -55,7 +55,7 @@ public:
     scopes_.pop_back();
   }
 
-  // Where a key is or belongs; valid until the next change of the table.
+  // Where a key is or would be; valid until the next change of the table.
   struct Spot {
     uint32_t bucket;
     uint32_t entry;
@@ -66,9 +66,9 @@ public:
     while (at != RUNG_NONE && !(entries_[at].key == key)) at = entries_[at].below;
     return {bucket, at};
   }
-  // The latest entry; null when there is none. Valid as long as the spot.
+  // The latest entry; null if there is none. Valid as long as the spot.
   const Entry* at(Spot spot) const { return spot.entry == RUNG_NONE ? nullptr : &entries_[spot.entry]; }
-  // `spot` is that of `key`.
+  // `spot` must be that of `key`.
   void enter(Spot spot, const ValueKey& key, ValueId value, uint32_t time) {
     if (spot.entry != RUNG_NONE && spot.entry >= (scopes_.empty() ? 0 : scopes_.back())) {
       entries_[spot.entry].value = value;
@@ -92,7 +92,7 @@ private:
 
   std::vector<uint32_t> heads_; // by bucket; a power of two
   std::vector<Entry> entries_;
-  std::vector<uint32_t> scopes_; // entries before each open region
+  std::vector<uint32_t> scopes_; // number of entries before each open region
 };
 
 bool isCommutative(OpCode code) {
@@ -101,12 +101,12 @@ bool isCommutative(OpCode code) {
          code == OpCode::FMul || code == OpCode::FEq;
 }
 
-// First what is there already is found, for all of a rung; only where there is something the rung is written anew.
+// First searches the whole rung for reusable values; only if there are some is the rung rewritten.
 class Reuser {
 public:
   explicit Reuser(const Module& module) : writes_(module) {}
 
-  // What of the rung is settled then.
+  // Returns what is settled of the rung afterwards.
   uint8_t run(Rung& rung, uint8_t before) {
     rung_ = &rung;
     reused_.clear();
@@ -125,7 +125,7 @@ public:
   }
 
 private:
-  // Whether the results of operation i, or what it stores, are there already.
+  // Whether the results of operation i, or the value that it stores, exist already.
   bool isReused(uint32_t i) {
     const Op& op = rung_->ops[i];
     const OpInfo& info = opInfo(op.code);
@@ -152,7 +152,7 @@ private:
     return false;
   }
 
-  // A store of what its place holds already; of others it is known then what the place holds.
+  // Whether a store stores what its place holds already; after any other store the contents of the place are known.
   bool isStored(const Op& op, uint32_t time) {
     const bool known = op.code == OpCode::Store || op.code == OpCode::SlotStore;
     if (!known) {
@@ -172,7 +172,7 @@ private:
     return false;
   }
 
-  // A store has the key of the load that reads its place.
+  // A store has the key of a load that reads its place.
   ValueKey keyOf(const Op& op) const {
     ValueKey key{.code = op.code, .type = op.type, .ref = op.ref, .count = op.count, .imm = op.imm, .args = {0, 0, 0}};
     if (op.code == OpCode::Store)
@@ -220,13 +220,13 @@ private:
   }
 
   const Rung* rung_ = nullptr;
-  std::vector<uint32_t> reused_; // operations that are not done again
-  std::vector<ValueId> same_;    // by value: the first that is the same
+  std::vector<uint32_t> reused_; // operations that are not repeated
+  std::vector<ValueId> same_;    // by value: the first equal one
   ValueTable table_;
   WriteTimes writes_;
   bool hasLoop_ = false;
-  std::vector<bool> writingLoop_; // by operation, where there are loops
-  bool tookFromLoop_ = false;     // a store, perhaps
+  std::vector<bool> writingLoop_; // by operation, if there are loops: whether it is a loop with writes
+  bool tookFromLoop_ = false;     // possibly a store was removed from a loop
   RungRewriter writer_;
 };
 

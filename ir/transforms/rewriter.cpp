@@ -1,4 +1,4 @@
-// Writing a rung anew (see rewriter.h).
+// Rewrites a rung (see rewriter.h).
 #include "ir/transforms/rewriter.h"
 
 #include <utility>
@@ -17,7 +17,7 @@ void RungRewriter::start(const Rung& rung) {
   notes_.clear();
 }
 
-// The operation without operands and results.
+// Appends the operation without operands and results.
 Op& RungRewriter::append(const Op& op) {
   Op& added = ops_.emplace_back(op);
   added.firstArg = static_cast<uint32_t>(args_.size());
@@ -114,7 +114,7 @@ void RungRewriter::finish(Rung& rung) {
   Transfer& transfer = rung.transfer;
   if (transfer.cond.valid()) transfer.cond = mapped(transfer.cond);
   if (transfer.value.valid()) transfer.value = mapped(transfer.value);
-  // Copied, not swapped: storage that a large rung needed must not stay with a small one.
+  // Copied, not swapped, so that a small rung does not keep the storage of a large one.
   rung.ops.assign(ops_.begin(), ops_.end());
   rung.args.assign(args_.begin(), args_.end());
   rung.values.resize(values_.size());

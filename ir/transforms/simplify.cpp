@@ -1,5 +1,5 @@
-// The rules by which single operations get simpler (see simplify.h). Every rule holds for all operands, to the bit; so
-// there are none on floating point sums and products, where NaN, signs of zero and rounding differ.
+// The rules that simplify single operations (see simplify.h). Every rule is exact for all operands, to the bit; so
+// there are no rules for floating-point sums and products, where NaN, signs of zero and rounding differ.
 #include "ir/transforms/simplify.h"
 
 #include "ir/core/eval.h"
@@ -9,7 +9,7 @@
 namespace rung::ir {
 namespace {
 
-// The compare that gives the opposite; of the operands in reverse order where `swap`.
+// The comparison with the opposite result; with the operands exchanged if `swap`.
 struct Opposite {
   OpCode code;
   bool swap;
@@ -43,7 +43,7 @@ public:
   bool run();
 
 private:
-  // Whether a value is the constant `bits`; all bits of the operation's type.
+  // Whether a value is the constant `bits`, compared in the operation's type.
   bool is(ValueId value, uint64_t bits) const {
     uint64_t known = 0;
     return isConstant(writer_, value, known) && known == bits;
@@ -104,7 +104,7 @@ bool Simplifier::evaluate() {
   return constant(evalPure(op_.code, op_.type, writer_.type(a_), bits));
 }
 
-// And, or: each with its dual, the constant that changes nothing and the one that decides all.
+// And, or: each with its dual, its neutral and its absorbing constant.
 bool Simplifier::logic(OpCode dual, uint64_t neutral, uint64_t absorbing) {
   constantSecond();
   if (a_ == b_ || is(b_, neutral)) return same(a_);
@@ -156,7 +156,7 @@ bool Simplifier::sumOfConstants() {
   return false;
 }
 
-// By 0: 0.
+// Division by 0 gives 0.
 bool Simplifier::quotient() {
   if (is(b_, 0)) return same(b_);
   return (is(a_, 0) || is(b_, 1)) && same(a_);
@@ -181,7 +181,7 @@ bool Simplifier::equality(bool equal) {
   if (complements(a_, b_)) return constant(equal ? 0 : 1);
   uint64_t bits = 0;
   if (!isConstant(writer_, b_, bits)) return false;
-  // A bit, also one that was widened, compared with a constant.
+  // A bit, possibly widened, compared with a constant.
   ValueId bit = a_;
   if (isA(a_, OpCode::ZExt)) bit = inner(a_);
   if (writer_.type(bit) != Type::Bit) return false;
@@ -221,7 +221,7 @@ bool Simplifier::truncate() {
   return become(from > bitWidth(op_.type) ? OpCode::Trunc : before, op_.type, {source});
 }
 
-// An element whose number is known is a fixed place; one outside the window reads 0 and is not written.
+// An element with a known index is a fixed place; one outside the window reads 0 and is not written.
 bool Simplifier::window() {
   const bool bit = op_.code == OpCode::LoadBitAt || op_.code == OpCode::StoreBitAt;
   const bool load = op_.code == OpCode::LoadAt || op_.code == OpCode::LoadBitAt;
@@ -278,7 +278,7 @@ bool Simplifier::run() {
   case OpCode::LoadBitAt:
   case OpCode::StoreBitAt: return window();
   case OpCode::Trap: return is(a_, 0);
-  default: return false; // no rule but that of constants
+  default: return false; // only constants are folded
   }
 }
 

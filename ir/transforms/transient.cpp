@@ -1,14 +1,14 @@
-// Stores to transient slots, the registers between rungs, that no load reads on any way that control can take: within
-// the rung (overwritten first) and over the rungs that follow, up to the end of the task's run.
+// Removes stores to transient slots, the registers between rungs, that no load reads on any path that control can take:
+// within the rung (overwritten first) and over the rungs that follow, up to the end of the task's run.
 //
-// A slot that a task may read before it has stored it is left alone, for it carries a value from one run to the next.
-// So is one that is needed where a part of a task may end, when another task stores it too. Each slot is followed
-// backward from its loads only as far as it is needed, so slots that live shortly cost little; should all of them
-// together take more than some walks over the whole program, the rest is left alone.
+// A slot that a task may read before it has stored it is not changed, because it carries a value from one run to the
+// next. Neither is one that is needed where a part of a task may end, if another task stores it, too. Each slot is
+// followed backward from its loads only as far as it is needed, so short-lived slots cost little; should all of them
+// together take more than some walks over the whole program, the rest is not changed.
 //
-// Whether a slot is needed is seen in what the optimiser has left; but forces put code in place that is made of other
-// values, and may do so, and end, between two runs or two parts of one. What one leaves for another is not transient
-// therefore, so that both codes store it (keepCarried, before anything is known of values).
+// Whether a slot is needed is determined from the optimised code; but forces insert code that computes other values,
+// and may begin and end between two runs or two parts of one. What one run leaves for another is therefore not
+// transient, so that both codes store it (keepCarried, before anything is known about values).
 #include <algorithm>
 
 #include "ir/analysis/rung_graph.h"
@@ -22,7 +22,7 @@ namespace {
 
 constexpr uint64_t kMaxWalks = 256; // over the whole program
 
-// What a rung does with a slot.
+// The accesses of a rung to a slot.
 struct Access {
   uint32_t slot;
   uint32_t node;
@@ -72,7 +72,7 @@ private:
     firstOfNode_.push_back(static_cast<uint32_t>(all_.size()));
   }
 
-  // While the walk is in a region, `kills` says: certainly stored when control comes here.
+  // While the walk is in a region, `kills` means: certainly stored when control reaches this point.
   void add(const Op& op, bool inLoop) {
     Access& access = accessTo(op.ref);
     if (op.code == OpCode::SlotLoad) {
@@ -91,14 +91,14 @@ private:
 
   const Module& module_;
   std::vector<Access> all_;
-  std::vector<uint32_t> firstOfNode_; // by node, and one more
+  std::vector<uint32_t> firstOfNode_; // by node, plus one entry
   std::vector<uint32_t> indexOf_;     // by slot: its last access
-  std::vector<uint32_t> stored_;      // slots that are certainly stored, in the order in which they became so
-  std::vector<size_t> open_;          // how many they were at the beginning of each open region
+  std::vector<uint32_t> stored_;      // slots that are certainly stored, in the order of their stores
+  std::vector<size_t> open_;          // size of stored_ at the beginning of each open region
 };
 
-// Follows each slot from the rungs that need it back to those that store it, and leaves alone those with a need where
-// others than the rungs before may have stored it.
+// Follows each slot backward from the rungs that need it to those that store it, and leaves slots unchanged that are
+// needed where code other than the rungs before may have stored them.
 class SlotFlow {
 public:
   enum class Others : uint8_t { Tasks, RunsAndParts };
@@ -129,7 +129,7 @@ public:
   }
 
 private:
-  // A part ends before the first rung beyond its border that control comes to.
+  // A part ends before the first rung beyond its border that control reaches.
   void findPauses(const Task& task) {
     const auto rungs = static_cast<uint32_t>(module_.at(task.entry).rungs.size());
     const uint32_t first = rungs == 0 ? 0 : graph_.nodeOf(task.entry, 0);
@@ -141,7 +141,7 @@ private:
           pauses_[first + i] = true;
   }
 
-  // Marks of a slot are its number plus one.
+  // The mark of a slot is its number plus one.
   void follow(uint32_t slot, std::span<const uint32_t> accesses) {
     const uint32_t mark = slot + 1;
     leaveAlone_ = false;
@@ -175,10 +175,10 @@ private:
     if (begins_[node] || (pauses_[node] && isOthers)) leaveAlone_ = true;
   }
 
-  // Slots that the routines of several tasks store.
+  // Finds slots that the routines of several tasks store.
   void findSharedSlots() {
     constexpr uint32_t kNobody = RUNG_NONE;
-    std::vector<uint32_t> taskOf(module_.slots.size(), kNobody); // the last that stores it
+    std::vector<uint32_t> taskOf(module_.slots.size(), kNobody); // the last task that stores it
     shared_.assign(module_.slots.size(), false);
     std::vector<uint32_t> routineOfNode;
     for (uint32_t r = 0; r < module_.routines.size(); ++r)
@@ -211,12 +211,12 @@ private:
   bool leaveAlone_ = false;
 };
 
-// Takes the dead stores out of one rung.
+// Removes the dead stores of one rung.
 class StoreRemover {
 public:
   explicit StoreRemover(const Module& module) : module_(module), state_(module.slots.size()) {}
 
-  // Whether some are taken out.
+  // Whether it has removed any.
   bool run(Rung& rung, std::span<const Access> accesses) {
     bool stores = false;
     for (const Access& access : accesses) {
@@ -235,13 +235,13 @@ public:
 
 private:
   struct State {
-    bool needed = true; // at the point that the walk has reached
+    bool needed = true; // at the current point of the walk
     bool leftAlone = false;
     bool loadsInLoop = false;
   };
 
-  // Backward. Within a region nothing is known to be stored for those before it, and what one region needs counts for
-  // the other too.
+  // Walks backward. A store in a region does not make earlier ones dead, and what one region needs also counts for the
+  // other.
   bool findDead(const Rung& rung) {
     dead_.assign(rung.ops.size(), 0);
     bool any = false;

@@ -19,7 +19,7 @@ bool ModuleCheck::inside(SpaceId space, uint64_t byte, uint64_t size) const {
 
 namespace {
 
-constexpr uint64_t kMaxBytes = 1ull << 28; // 32 bits count their bits (BitRange)
+constexpr uint64_t kMaxBytes = 1ull << 28; // so that 32 bits can number their bits (BitRange)
 constexpr uint32_t kSpaceFlagMask = RUNG_SPACE_INPUT | RUNG_SPACE_OUTPUT | RUNG_SPACE_HIDDEN | RUNG_SPACE_ALLOCATED;
 constexpr uint32_t kSymbolFlagMask = RUNG_SYMBOL_READONLY | RUNG_SYMBOL_HIDDEN | RUNG_SYMBOL_CONST | RUNG_SYMBOL_AREA;
 
@@ -141,7 +141,7 @@ void checkCopies(ModuleCheck& check) {
   }
 }
 
-// Borders are rungs after the first one, ascending, and leave no part over.
+// Borders must be rungs after the first one, ascending, and not more than the parts need.
 bool hasSoundBorders(const Module& module, const Task& task) {
   if (task.borders.size() >= std::max(task.parts, 1u)) return false;
   uint32_t last = 0;
@@ -173,7 +173,7 @@ uint64_t advances(const std::vector<Step>& steps) {
   return us;
 }
 
-// A real clock waits between two scans.
+// Whether time passes, so that a real clock waits between two scans.
 bool takesTime(const Module& m) {
   if (advances(m.scan) != 0) return true;
   return m.mainTask.index >= m.tasks.size() || m.tasks[m.mainTask.index].periodUs != 0;
@@ -205,7 +205,7 @@ void checkRoutines(ModuleCheck& check) {
     if (check.module.routines[i].rungs.empty()) check.fail(Rule::Routines, "there is no rung", RoutineId{i});
 }
 
-// Depth-first over the calls, without recursion: a loop of 100,000 routines must not overflow our own stack.
+// Depth-first over the calls, without recursion: a loop of 100,000 routines must not overflow the compiler's stack.
 class CallWalk {
 public:
   explicit CallWalk(ModuleCheck& check) : check_(check), depth_(check.module.routines.size(), kUnseen) {}
@@ -221,7 +221,7 @@ private:
   struct Frame {
     uint32_t routine;
     uint32_t rung;
-    uint32_t depth; // of calls below this routine, so far
+    uint32_t depth; // depth of calls below this routine, so far
   };
 
   void visit(uint32_t root) {
@@ -240,7 +240,7 @@ private:
       if (transfer.kind != TransferKind::Call)
         ++top.rung;
       else if (depth_[callee] == kUnseen)
-        open(frames, callee); // and look at this rung again
+        open(frames, callee); // this rung is visited again afterwards
       else {
         follow(top, callee);
         ++top.rung;
@@ -258,7 +258,7 @@ private:
     if (depth_[callee] == kOpen)
       return check_.fail(Rule::Calls, "routines call each other in a loop", RoutineId{top.routine}, top.rung, op);
     top.depth = std::max(top.depth, depth_[callee] + 1);
-    // Reported where it is first exceeded; callers above see the limit again, and not the error.
+    // Reported where it is first exceeded; for callers the depth is limited, so they do not report it again.
     if (top.depth <= kLimit) return;
     check_.fail(Rule::Calls, fmt::format("calls are nested more than {} deep", kLimit), RoutineId{top.routine},
                 top.rung, op);
@@ -269,7 +269,7 @@ private:
   static constexpr uint32_t kLimit = RUNG_STACK_DEPTH - 1;
 
   ModuleCheck& check_;
-  std::vector<uint32_t> depth_; // of the calls below each routine
+  std::vector<uint32_t> depth_; // depth of calls below each routine
 };
 
 } // namespace

@@ -8,7 +8,7 @@
 
 namespace rung::ir {
 
-// What a rule of the module sees.
+// What a rule of the module needs.
 class ModuleCheck {
 public:
   ModuleCheck(const Module& m, Mode checkMode, std::vector<VerifyError>& errors)
@@ -30,10 +30,10 @@ private:
 
 uint64_t byteCount(const Space& space);
 
-// False when the rungs cannot be checked, because the tables they refer to are broken.
+// False if the rungs cannot be checked, because the tables to which they refer are invalid.
 bool checkModule(ModuleCheck& check);
 void checkRungs(ModuleCheck& check);
-// Needs transfers that are in range.
+// Transfers must be in range.
 void checkCalls(ModuleCheck& check);
 
 } // namespace rung::ir

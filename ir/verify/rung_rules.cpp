@@ -1,4 +1,4 @@
-// The rules on rungs (see verify.h). They run in order, and each relies on those before it.
+// The rules on rungs (see verify.h). They run in order; each relies on those before it.
 #include <algorithm>
 #include <fmt/format.h>
 
@@ -74,12 +74,12 @@ private:
   uint32_t number_ = 0;
   const Rung* rung_ = nullptr;
   bool failed_ = false;
-  // What form() sees in the rung.
-  uint32_t attributes_ = 0; // set of them
+  // Collected by form() about the rung.
+  uint32_t attributes_ = 0; // a set of Attr
   bool hasRegions_ = false;
   bool measures_ = false;
   std::vector<const Op*> open_; // of each open region the if, its else, or the loop
-  // For scope(), by value: in a region that has ended; where there are regions.
+  // For scope(), by value: whether its region has ended; used if there are regions.
   std::vector<uint8_t> hidden_;
 };
 
@@ -94,8 +94,8 @@ void RungCheck::header() {
 
 // ---- form ----------------------------------------------------------------------------------------------------------
 
-// How many results an operation has. Those of endif and endloop are as many as its operands, which `yields` checks
-// against the other end; a loop has one more.
+// The number of results of an operation. Endif and endloop have as many as operands, which `yields` compares with the
+// other end; a loop has one more.
 uint32_t resultsOf(const Op& op) {
   const OpInfo& info = opInfo(op.code);
   if (info.result == Constraint::None) return 0;
@@ -226,7 +226,7 @@ void RungCheck::types() {
   });
 }
 
-// The operands (or results, but for the first `skip`) of `op` are like the operands of `like`.
+// Checks that the operands of `op` (or its results, except the first `skip`) have the types of the operands of `like`.
 void RungCheck::checkYield(const Op& op, size_t i, const Op& like, uint32_t skip, bool results) {
   const uint32_t count = results ? op.resultCount - skip : op.argCount;
   if (count != like.argCount)
@@ -322,7 +322,7 @@ void RungCheck::host() {
 
 void RungCheck::loops() {
   if ((attributes_ & bitOf(Attr::Count)) == 0) return;
-  std::vector<uint64_t> passes{1}; // of the open loops, multiplied
+  std::vector<uint64_t> passes{1}; // product over the open loops
   uint64_t total = 0;
   eachOp([&](const Op& op, size_t i) {
     if (op.code == OpCode::EndLoop) passes.pop_back();

@@ -1,4 +1,4 @@
-// Runs the rules, and renders what they found (see verify.h).
+// Runs the rules, and formats their errors (see verify.h).
 #include "ir/verify/verify.h"
 
 #include <fmt/format.h>
@@ -9,7 +9,7 @@
 
 namespace rung::ir {
 
-// Rungs and declarations that `render` shows; one is mostly enough, and a text of thousands does not help.
+// Most rungs and declarations that `render` shows; one usually suffices, and a text of thousands does not help.
 constexpr int kMaxShown = 20;
 
 std::string_view ruleName(Rule rule) {
@@ -48,7 +48,7 @@ std::string render(const Module& module, const std::vector<VerifyError>& errors)
       out += printRung(module, error.routine, error.rung);
       continue;
     }
-    // All errors at operations of this rung, which are one after the other.
+    // All errors at operations of this rung, which are consecutive.
     size_t end = i;
     while (end < errors.size() && errors[end].routine == error.routine && errors[end].rung == error.rung &&
            errors[end].op != RUNG_NONE)

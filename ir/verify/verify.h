@@ -84,11 +84,11 @@ struct VerifyError {
   uint32_t op = RUNG_NONE;   // none: the rung; the number of operations: its transfer
 };
 
-// Empty when the module keeps all rules.
+// Empty if the module satisfies all rules.
 std::vector<VerifyError> verify(const Module& module, Mode mode);
 
-// The errors as text, the first ones where there are many; those of a rung are under the operation in the rung's
-// text form.
+// The errors as text, only the first ones if there are many; those of a rung are shown under the operation in the
+// rung's text form.
 std::string render(const Module& module, const std::vector<VerifyError>& errors);
 
 } // namespace rung::ir

@@ -1,5 +1,5 @@
-// rung-bench: measures every engine on generated programs and prints docs/performance.md. Each case runs in a process
-// of its own, so that its resident memory is its own; figures are medians, and ratios are taken in one process.
+// rung-bench: measures every engine on generated programs and prints docs/performance.md. Each case runs in a separate
+// process, so that its resident memory is its own; figures are medians, and ratios are measured within one process.
 #include <cstdio>
 #include <filesystem>
 #include <fmt/format.h>
@@ -47,7 +47,7 @@ int measureOne(const Case& which) {
   return 0;
 }
 
-// Runs this program for one case; nothing when it failed.
+// Runs this program for one case; nothing if it failed.
 std::optional<nlohmann::json> runCase(const Case& which) {
   const rung::TemporaryFolder folder;
   if (!folder.ok()) return std::nullopt;

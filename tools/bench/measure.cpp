@@ -22,7 +22,7 @@ namespace {
 
 constexpr int kSamples = 41;
 constexpr int kSettleScans = 20;
-constexpr double kSampleNs = 2e6; // a sample repeats its scan for about this long
+constexpr double kSampleNs = 2e6; // a sample repeats its scan for about this time
 
 using Clock = std::chrono::steady_clock;
 
@@ -65,7 +65,8 @@ Result<Program> programOf(const Case& which, const Work& work) {
   return form->write(work);
 }
 
-// Both from the same state through the same scans; they must stay equal, or the figures compare nothing.
+// Runs both sides from the same state through the same scans; they must stay equal, or the comparison would be
+// meaningless.
 Result<void> settle(Side& ours, Side& straight, const Work& work, const Program& program) {
   Machine machine(work);
   ours.begin(machine);
@@ -82,7 +83,7 @@ Result<void> settle(Side& ours, Side& straight, const Work& work, const Program&
   return {};
 }
 
-// Of a shared object the file, of the JIT what its cache keeps of the same program.
+// Size of the file of a shared object, or of the cache files of the JIT for the same program.
 Result<double> codeKb(compiler::EngineKind kind, const compiler::Compiled& compiled, compiler::EngineOptions options,
                       const rung_program& program) {
   if (kind == compiler::EngineKind::Interp) return 0.0;
@@ -96,7 +97,7 @@ Result<double> codeKb(compiler::EngineKind kind, const compiler::Compiled& compi
       if (entry.is_regular_file()) bytes += entry.file_size();
     return static_cast<double>(bytes) / 1024.0;
   }
-  // The file is gone when it is loaded; what is mapped of it is as large, rounded to pages.
+  // The file is deleted once it is loaded; its mapped size is the same, rounded to pages.
   std::map<std::string, uintmax_t> mapped; // by file
   std::string file;
   std::ifstream maps("/proc/self/maps");

@@ -1,4 +1,4 @@
-// Measures one engine on one generated program, beside the straight-line form of it, in this process.
+// Measures one engine on one generated program, and its straight-line form, in this process.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -9,28 +9,28 @@ namespace rung::bench {
 
 struct Case {
   std::string engine{};   // interp, cpp, llvm or jit
-  std::string compiler{}; // of engine cpp
+  std::string compiler{}; // for engine cpp
   std::string dialect{};
-  std::string kind{}; // of program, as generated/work.h names it
+  std::string kind{}; // kind of the program, as generated/work.h names it
   uint32_t size = 0;
   bool optimise = true;
-  std::string straight{}; // a shared object with the straight-line form
+  std::string straight{}; // path of a shared object with the straight-line form
 };
 
 struct Measured {
   double frontMs = 0;   // from source text to the layout
   double backMs = 0;    // from there to the end of the first scan
-  double nsPerScan = 0; // median
+  double nsPerScan = 0; // median of the samples
   double straightNsPerScan = 0;
   double ratio = 0;      // median of the ratios of neighbouring samples
-  double residentMb = 0; // most that the process ever had
-  double codeKb = 0;     // shared object, or object files of the JIT; 0: there is none
+  double residentMb = 0; // peak of the process
+  double codeKb = 0;     // of the shared object, or of the object files of the JIT; 0: no code
   double memoryKb = 0;   // memory block of an instance
 };
 
 Result<Measured> measure(const Case& which);
 
-// The shared object with the straight-line form, a byte a bit, at -O3.
+// Builds the shared object with the straight-line form, a byte per bit, at -O3.
 Result<void> buildStraight(const Case& which, const std::string& compiler, const std::string& path);
 
 } // namespace rung::bench

@@ -1,7 +1,7 @@
-// rung-bench-start FILE: starts a program, or the project of a rung.toml, as `rungc run` does, and prints as JSON what
-// that took: milliseconds of CPU time in each stage, and of CPU and of real time from there until all code is
-// optimised; the most memory that the process had, in MB. CPU time is that of all threads. The first stage is the start
-// of the process itself.
+// rung-bench-start FILE: starts a program, or the project of a rung.toml, as `rungc run` does, and prints its costs as
+// JSON: milliseconds of CPU time in each stage; of CPU and of real time from there until all code is optimised; the
+// peak memory of the process, in MB. CPU time is that of all threads. The first stage is the start of the process
+// itself.
 #include <chrono>
 #include <ctime>
 #include <exception>
@@ -43,7 +43,7 @@ double residentMb() {
   return static_cast<double>(usage.ru_maxrss) / 1024.0;
 }
 
-// CPU time by stage; a stage that comes again adds up.
+// CPU time by stage; repeated stages are added up.
 class Stages {
 public:
   void ended(std::string_view stage) {
@@ -58,7 +58,7 @@ private:
   std::map<std::string, double> ms_;
 };
 
-// A project's files with its configuration, or one file.
+// The request for a project's files with its configuration, or for one file.
 compiler::CompileRequest request(SourceManager& sources, const std::string& path, std::vector<FileId>& files) {
   compiler::CompileRequest request;
   if (!path.ends_with(compiler::kFileName)) {

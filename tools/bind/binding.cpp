@@ -24,7 +24,7 @@ using host::Mistake;
 struct Place {
   uint32_t type = RUNG_TYPE_BIT; // enum rung_type
   uint32_t space = RUNG_NONE;    // RUNG_NONE: a constant
-  bool words = false;            // a real that words hold
+  bool words = false;            // a real number stored in words
 
   bool isBit() const { return type == RUNG_TYPE_BIT; }
   bool isReal() const { return words || type == RUNG_TYPE_F64; }
@@ -102,7 +102,7 @@ private:
     row.type = row.at.lengths.empty() ? hostType(is) : 0;
   }
 
-  // Nothing that a PLC has.
+  // A member whose type a PLC does not have.
   std::optional<Mistake> unfitMember(const Member& member) const {
     const codegen::HostMember& is = *member.is;
     if (is.kind == MemberKind::Other)
@@ -132,7 +132,7 @@ private:
 
   // ---- names
 
-  // As the machine sees it; what the program alone writes may be read.
+  // With the machine's access rights; what only the program writes may be read.
   std::optional<Place> placeOf(const std::string& name, bool input, bool real) const {
     const int32_t asReal = real ? RUNG_REAL : 0;
     std::optional<rung_cell_info> info = cellInfo(instance_, name, RUNG_WRITE | asReal);
@@ -196,7 +196,7 @@ private:
     return std::nullopt;
   }
 
-  // Upper bits that the other side does not hold.
+  // Upper bits that the other side does not store.
   std::optional<Mistake> cutOff(const Row& row, const Place& place) const {
     if (entry_->cut || place.isBit() || place.isReal() || row.at.is->kind != MemberKind::Integer) return std::nullopt;
     const uint32_t member = row.bits != 0 ? row.bits : 8 * row.bytes;
@@ -211,7 +211,7 @@ private:
                                entry_->input ? "(D10:4 of GSK has 4 bytes)" : "or bind a longer member")};
   }
 
-  // All that an enumeration has.
+  // Whether all constants of an enumeration fit.
   bool constantsFit(const Row& row, uint32_t width) const {
     const std::vector<uint32_t>& constants = row.at.is->constants;
     const int64_t half = int64_t{1} << (width - 1);
@@ -221,7 +221,7 @@ private:
     });
   }
 
-  // The library says what is wrong; the block is memory of ours.
+  // Lets the library check the block, with temporary memory in place of the host's.
   bool fitBlock(const Row& row) {
     std::vector<uint8_t>& memory = *memory_.emplace_back(std::make_unique<std::vector<uint8_t>>(row.bytes));
     const rung_block block{row.name.c_str(), memory.data(), row.bytes, row.direction};
@@ -254,8 +254,8 @@ private:
   rung_instance* instance_;
   const rung_program& program_;
   std::vector<Error>& errors_;
-  const Entry* entry_ = nullptr;                              // that is looked at
-  std::vector<std::unique_ptr<std::vector<uint8_t>>> memory_; // of blocks, for the life of the instance
+  const Entry* entry_ = nullptr;                              // the entry that is being checked
+  std::vector<std::unique_ptr<std::vector<uint8_t>>> memory_; // memory of blocks, for the life of the instance
 };
 
 std::string constantsText(const HostLayout& layout, const codegen::HostMember& member) {

@@ -1,4 +1,4 @@
-// Members of a host's struct and names of a program, looked up and fitted to each other: the rows of a rung_layout.
+// Members of a host's struct matched with names of a program: the rows of a rung_layout.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -11,13 +11,13 @@
 
 namespace rung::bind {
 
-// As in rung_member.
+// The fields of rung_member.
 struct Row {
   std::string name;
   std::string member;
   uint32_t offset = 0;
   uint32_t bytes = 0;
-  uint32_t type = 0; // enum rung_host_type; 0: a block
+  uint32_t type = 0; // enum rung_host_type; 0: a block of bytes
   uint32_t direction = RUNG_TO_PROGRAM;
   uint32_t bit = 0;
   uint32_t bits = 0;
@@ -33,15 +33,15 @@ struct CounterRow {
 struct Binding {
   std::vector<Row> rows;
   CounterRow head, tail;
-  uint32_t counterBytes = 0; // 0: there are none
+  uint32_t counterBytes = 0; // 0: no counters
 };
 
-// Every row that does not fit is an entry of `errors`. `program`: the tables of the instance's image; the instance is
+// Every row that does not fit adds an entry to `errors`. `program`: the tables of the instance's image; the instance is
 // not used afterwards.
 Binding bind(const File& file, const codegen::HostLayout& layout, rung_instance* instance, const rung_program& program,
              std::vector<Error>& errors);
 
-// What is bound where, a line a row: rung_layout::text.
+// The bindings as text, one row per line: rung_layout::text.
 std::string describe(const Binding& binding, const codegen::HostLayout& layout);
 
 // "i32", "bool", "3 bits", "16 bytes"

@@ -32,7 +32,7 @@ private:
     return table != nullptr;
   }
 
-  // axis.position = … is a key of a table `axis`; { … } says more of one member.
+  // axis.position = … is a key of a table `axis`; { … } gives further properties of one member.
   void readMembers(const toml::table& table, bool input, const std::string& before, File& file) {
     for (const auto& [key, node] : text::inFileOrder(table)) {
       const std::string member = before + std::string(key->str());

@@ -1,5 +1,5 @@
-// The binding file: which members of a host's struct are which names of the PLC program. It is TOML; docs/bind.md
-// describes its tables. This is the file alone; binding.h looks members and names up.
+// The binding file, in TOML (docs/bind.md): which members of a host's struct are bound to which names of the PLC
+// program. This header reads the file only; binding.h looks members and names up.
 #pragma once
 #include <optional>
 #include <string>
@@ -16,11 +16,11 @@ struct Error {
 };
 
 struct Entry {
-  bool input = true; // of [in]
+  bool input = true; // table [in]
   std::string member;
-  std::string name; // of the program
-  double scale = 0; // 0: none is given
-  bool cut = false; // upper bits that do not fit are left out
+  std::string name; // name in the program
+  double scale = 0; // 0: not given
+  bool cut = false; // upper bits that do not fit are dropped
   text::Position at;
 };
 
@@ -34,7 +34,7 @@ struct File {
   std::optional<Counter> head, tail;
 };
 
-// Every mistake is an entry of `errors`; of a text that is not TOML the first one.
+// Every mistake adds an entry to `errors`; of a text that is not TOML, the first one only.
 File parse(std::string_view text, std::vector<Error>& errors);
 
 } // namespace rung::bind

@@ -28,14 +28,14 @@ constexpr const char* kHostTypes[] = {"0",
                                       "RUNG_HOST_F32",
                                       "RUNG_HOST_F64"};
 
-// A text of C.
+// A C string literal.
 std::string literal(std::string_view text) {
   std::string out = "\"";
   for (const char c : text) out += c == '"' || c == '\\' ? std::string{'\\', c} : c == '?' ? "\\?" : std::string{c};
   return out + "\"";
 }
 
-// ns::Block becomes ns_Block.
+// Turns ns::Block into ns_Block.
 std::string identifierOf(std::string_view name) {
   std::string out;
   for (const char c : name) {
@@ -99,7 +99,7 @@ private:
           what);
   }
 
-  // A number that has become another one of the same size.
+  // Asserts that a number has not changed to another kind of number of the same size.
   void checkKind(const Row& row) {
     const bool real = row.at.is->kind == MemberKind::Real;
     const std::string what = fmt::format("{}.{} was {} and has changed", layout_.name, row.member, typeText(row));
@@ -111,7 +111,7 @@ private:
   }
 
   void checkRow(const Row& row) {
-    if (row.bits != 0) return; // moved() looks at these
+    if (row.bits != 0) return; // moved() checks these
     checkPlace(row.member, row.offset, row.bytes, typeText(row));
     if (row.type != 0) checkKind(row);
   }
@@ -163,7 +163,8 @@ private:
     return std::ranges::any_of(binding_.rows, [](const Row& row) { return row.bits != 0; });
   }
 
-  // Where bit-fields lie is seen by their values when certain bits of the struct are set, and all others.
+  // The positions of bit-fields are checked by their values if certain bits of the struct are set, and if all others
+  // are.
   void bitFields() {
     if (!hasBitFields()) return;
     put("/* Compilers make nothing of this but its result. */\n");

@@ -1,5 +1,6 @@
 // rung-layout: reads a struct of a C or C++ header for rungc bind. HEADER STRUCT FOLDER [FLAG...], where FOLDER has a
-// compile_commands.json or is "". The layout is JSON on standard output, what is wrong a sentence on standard error.
+// compile_commands.json or is "". The layout is printed as JSON to standard output, errors as a sentence to standard
+// error.
 #include <cstdio>
 
 #include "codegen/clang/layout_json.h"

@@ -16,7 +16,7 @@ using codegen::HostMember;
 using codegen::HostRecord;
 using codegen::MemberKind;
 
-// A member of the record, or of an anonymous struct or union in it.
+// Finds a member of the record, or of an anonymous struct or union in it.
 bool findIn(const HostLayout& layout, const HostRecord& record, std::string_view name, uint64_t begin, Member& found) {
   for (const HostMember& member : record.members) {
     if (member.name == name) {

@@ -14,8 +14,8 @@ namespace rung::bind {
 
 struct Member {
   const codegen::HostMember* is = nullptr;
-  uint64_t bit = 0;              // from the begin of the struct
-  std::vector<uint64_t> lengths; // of an array that is left
+  uint64_t bit = 0;              // offset from the beginning of the struct
+  std::vector<uint64_t> lengths; // remaining dimensions of an array
 
   uint64_t elements() const;
   uint64_t bytes() const { return is->bytes * elements(); }
@@ -24,24 +24,25 @@ struct Member {
 // The member, or what is wrong with the path: "found …, expected …; …".
 std::variant<Member, std::string> findMember(const codegen::HostLayout& layout, std::string_view path);
 
-// Every number in the struct with its path, of arrays as a whole but for arrays of structs; those in unions, too.
+// Visits every number in the struct, including those in unions, with its path. An array is visited as a whole, an array
+// of structs element by element.
 void forEachNumber(const codegen::HostLayout& layout,
                    const std::function<void(const std::string& path, const Member& member)>& see);
 
-// For which layouts of a host's structs a program is compiled: what `rungc build --binding` takes from the files that
-// rungc bind has made.
+// The layouts of a host's structs for which a program is compiled: `rungc build --binding` takes them from the files
+// that rungc bind has made.
 
 struct Claim {
-  std::string name; // of the struct
+  std::string name; // name of the struct
   std::string text; // rung_layout::text
 };
 
 uint64_t hashOf(std::string_view text);
 
-// A comment of C with the claim, which claimIn finds again.
+// A C comment with the claim, which claimIn finds again.
 std::string claimText(std::string_view name, std::string_view text);
 
-// Fails where the file is not one of rungc bind, or was changed by hand.
+// Fails if the file was not made by rungc bind, or was changed by hand.
 Result<Claim> claimIn(std::string_view file);
 
 } // namespace rung::bind

@@ -28,7 +28,7 @@ Rung describe(const ir::Module& module, const ir::Routine& routine, const ir::Ru
   return out;
 }
 
-// The values that decide, and which of the outputs have each: outputs with one power are one decision.
+// The values that decide, and the outputs of each: outputs with the same power are one decision.
 std::vector<ir::ValueId> decisionsOf(std::span<const ir::Mark> marks, std::vector<std::vector<uint32_t>>& outputs) {
   std::vector<ir::ValueId> values;
   uint32_t output = 0;
@@ -48,7 +48,7 @@ std::vector<ir::ValueId> decisionsOf(std::span<const ir::Mark> marks, std::vecto
 
 CoverageCollector::CoverageCollector(const ir::Module& module, const ir::Marks& marks) {
   program_.files = module.files;
-  std::map<uint32_t, std::vector<Part>> known; // by number
+  std::map<uint32_t, std::vector<Part>> known; // by rung number
   for (uint32_t r = 0; r < module.routines.size(); ++r) {
     const std::vector<ir::Rung>& rungs = module.routines[r].rungs;
     for (uint32_t i = 0; i < rungs.size(); ++i) {
@@ -65,7 +65,7 @@ bool CoverageCollector::isSame(const Part& a, const Part& b) {
          std::equal(a.marks.begin(), a.marks.end(), b.marks.begin(), b.marks.end(), samePlace);
 }
 
-// Finds where the part is in the rung of the source. True: it is new, and its conditions and outputs come last.
+// Finds the part's position in the rung of the source. True: it is new, and its conditions and outputs are appended.
 bool CoverageCollector::locate(const ir::Module& module, Part& part, std::vector<Part>& known) {
   const auto same = std::find_if(known.begin(), known.end(), [&](const Part& other) { return isSame(part, other); });
   if (same != known.end()) {
@@ -213,7 +213,7 @@ void Collection::add(const Program& program) {
   merge(report_, CoverageReport{{program}});
 }
 
-// Threads finish in any order; the report does not show it.
+// Threads finish in any order; the report does not depend on it.
 CoverageReport Collection::report() const {
   const std::lock_guard lock(mutex_);
   CoverageReport report = report_;
@@ -247,8 +247,8 @@ Expression::Kind Expression::kindOf(ir::OpCode code) {
   return code == ir::OpCode::Not ? Kind::Not : Kind::Select;
 }
 
-// Operations come in an order in which operands are defined before they are used, so one walk upwards finds what the
-// root needs, and one downwards makes the nodes.
+// Operands are defined before they are used, so one backward walk finds what the root needs, and one forward walk makes
+// the nodes.
 Expression::Expression(const ir::Rung& rung, ir::ValueId root, std::span<const ir::ValueId> conditions) {
   std::vector<uint32_t> conditionOf(rung.values.size(), kNone);
   for (uint32_t i = 0; i < conditions.size(); ++i) conditionOf[conditions[i].index] = i;
@@ -275,7 +275,7 @@ Expression::Expression(const ir::Rung& rung, ir::ValueId root, std::span<const i
       uint32_t args[3] = {};
       for (int a = 0; a < op.argCount; ++a) args[a] = nodeOf[ir::arg(rung, op, a).index];
       add(op.result.index, {.kind = kindOf(op.code), .a = args[0], .b = args[1], .c = args[2]});
-      if (op.result == root) break; // it is to be the last node
+      if (op.result == root) break; // the root must be the last node
       continue;
     }
     for (uint32_t r = 0; r < op.resultCount; ++r)
@@ -283,7 +283,7 @@ Expression::Expression(const ir::Rung& rung, ir::ValueId root, std::span<const i
   }
 }
 
-// The root in 64 lanes; lane l flips condition first + l - 1, lane 0 none.
+// The root in 64 lanes; in lane l condition first + l - 1 is flipped, in lane 0 none.
 uint64_t Expression::evaluate(std::span<const uint64_t> values, size_t first, std::vector<uint64_t>& lanes) const {
   for (size_t i = 0; i < nodes_.size(); ++i) {
     const Node& node = nodes_[i];

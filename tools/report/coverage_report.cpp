@@ -48,7 +48,7 @@ void mergeRung(Rung& rung, const Rung& other) {
       rung.decisions[i].by[k].alone |= other.decisions[i].by[k].alone;
 }
 
-// A number is there once.
+// Each number occurs once.
 void mergeProgram(Program& program, const Program& other) {
   for (Rung& rung : program.rungs) {
     const auto at = std::lower_bound(other.rungs.begin(), other.rungs.end(), rung.number,
@@ -57,7 +57,7 @@ void mergeProgram(Program& program, const Program& other) {
   }
 }
 
-// The configuration may make two programs of the same files.
+// Files alone do not identify a program: the configuration may make two programs of the same files.
 bool sameProgram(const Program& a, const Program& b) {
   return a.files == b.files && std::equal(a.rungs.begin(), a.rungs.end(), b.rungs.begin(), b.rungs.end(), sameRung);
 }
@@ -127,7 +127,7 @@ void mergeFormer(CoverageReport& report, const CoverageReport& former) {
   }
 }
 
-// The report for programs and for the next run.
+// The report as JSON, for other programs and for the next run.
 
 namespace {
 
@@ -281,7 +281,7 @@ Result<CoverageReport> fromJson(std::string_view text) {
   }
 }
 
-// The report for people.
+// The report as text.
 
 namespace {
 
@@ -321,14 +321,14 @@ std::string outcomeOf(const Rung& rung, const Decision& decision) {
   return text;
 }
 
-// A box that got no power gives nothing: once is enough.
+// A box without power has no result: this is reported once, at its input.
 bool isSaidOfInput(const Rung& rung, const Condition& condition, const std::string& missing) {
   return std::ranges::any_of(rung.outputs, [&](const Output& output) {
     return output.line == condition.line && output.column == condition.column && missingOf(output) == missing;
   });
 }
 
-// What is missing in a rung that ran. Of a condition that never moved, that says enough.
+// What is missing in a rung that ran. For a condition that never changed, that alone is reported.
 std::vector<std::string> partsMissing(const Rung& rung) {
   std::vector<std::string> lines;
   for (const Condition& condition : rung.conditions)

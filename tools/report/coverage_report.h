@@ -1,4 +1,4 @@
-// What runs of a program have shown of it, rung by rung: plain data that is counted in, merged, written and read.
+// Coverage of a program by runs, rung by rung, as plain data to be merged, written and read.
 #pragma once
 #include <cstdint>
 #include <span>
@@ -10,14 +10,14 @@
 
 namespace rung::report {
 
-// A contact, or the result of a box or an instruction: what a coil is decided by.
+// A contact, or the result of a box or an instruction: what decides about a coil.
 struct Condition {
-  std::string text; // as written
+  std::string text; // as in the source
   uint32_t line = 0;
   uint32_t column = 0;
   bool contact = true;
-  bool open = false;   // seen so
-  bool closed = false; // seen so: it conducts
+  bool open = false;   // seen open
+  bool closed = false; // seen closed: it conducts
 };
 
 // A coil, or an input of a box or an instruction.
@@ -30,22 +30,22 @@ struct Output {
   bool on = false;  // seen with power
 };
 
-// Situations in which a condition alone decided: had it been the other way, the outcome would have been, too.
+// Situations in which a condition alone decided: with its other value the outcome would have been the other one, too.
 enum Alone : uint8_t { kOpenOff = 1, kOpenOn = 2, kClosedOff = 4, kClosedOn = 8 };
 
 struct Deciding {
-  uint32_t condition = 0; // in Rung::conditions
-  uint8_t alone = 0;      // of enum Alone
-  // The outcome was seen both ways, by this condition alone (masking MC/DC).
+  uint32_t condition = 0; // index in Rung::conditions
+  uint8_t alone = 0;      // bits of enum Alone
+  // Both outcomes were seen, decided by this condition alone (masking MC/DC).
   bool bothWays() const {
     return (alone & (kOpenOff | kClosedOn)) == (kOpenOff | kClosedOn) ||
            (alone & (kOpenOn | kClosedOff)) == (kOpenOn | kClosedOff);
   }
 };
 
-// What a value of the rung decides, and what decides it.
+// A value of the rung with the outputs that it decides and the conditions that decide it.
 struct Decision {
-  std::vector<uint32_t> outputs; // in Rung::outputs; they all get this power
+  std::vector<uint32_t> outputs; // indices in Rung::outputs; all of them get this power
   std::vector<Deciding> by;
 };
 
@@ -62,7 +62,7 @@ struct Rung {
 };
 
 struct Program {
-  std::vector<std::string> files; // in the order in which they are compiled
+  std::vector<std::string> files; // in the order of compilation
   std::vector<Rung> rungs;        // by number
 };
 
@@ -70,7 +70,7 @@ struct CoverageReport {
   std::vector<Program> programs;
 };
 
-// So many of so many.
+// A count and its total.
 struct Share {
   uint64_t seen = 0;
   uint64_t all = 0;
@@ -79,38 +79,38 @@ struct Share {
 };
 
 struct Totals {
-  Share rungs;         // run
-  Share contacts;      // open and closed
-  Share coils;         // on and off
-  Share decided;       // conditions of a decision that decided it alone both ways
-  uint64_t oneWay = 0; // conditions that decided in one direction only
+  Share rungs;         // rungs that ran
+  Share contacts;      // contacts seen open and closed
+  Share coils;         // coils seen off and on
+  Share decided;       // conditions of a decision that alone decided both outcomes
+  uint64_t oneWay = 0; // conditions that alone decided one outcome only
   Totals& operator+=(const Totals& other);
 };
 
 Totals totalsOf(std::span<const Rung> rungs);
 Totals totalsOf(const CoverageReport& report);
 
-// Adds what another report has seen. Rungs are the same when they have the same number, place, contacts and coils,
-// programs when they have the same files and the same rungs.
+// Adds the coverage of another report. Rungs are the same if they have the same number, place, contacts and coils,
+// programs if they have the same files and the same rungs.
 void merge(CoverageReport& report, const CoverageReport& other);
-// The same for a report of former runs: of a program that was changed since, only the rungs that stayed are added.
+// The same for a report of former runs: if the program has changed since, only unchanged rungs are added.
 void mergeFormer(CoverageReport& report, const CoverageReport& former);
 
-// The form is described in docs/coverage-format.md.
+// The format is described in docs/coverage-format.md.
 std::string toJson(const CoverageReport& report);
 Result<CoverageReport> fromJson(std::string_view text);
 
 struct CoverageTextOptions {
-  uint32_t missing = 40; // lines of what is missing; 0: all
+  uint32_t missing = 40; // most lines about missing coverage; 0: all
 };
 std::string toText(const CoverageReport& report, const CoverageTextOptions& options);
 
 // "66.6 %", rounded down: 100 means all.
 std::string percentText(const Share& share);
 
-// Where a rung or a part of it has something missing, in words: "never open". Empty where nothing is.
+// What is missing of a rung or a part of it, in words: "never open"; "" if nothing is.
 std::string missingOf(const Condition& condition);
 std::string missingOf(const Output& output);
-std::string missingOf(const Deciding& deciding, std::string_view outcome); // "(PUMP)": what it was to decide
+std::string missingOf(const Deciding& deciding, std::string_view outcome); // `outcome`: "(PUMP)"
 
 } // namespace rung::report

@@ -24,7 +24,7 @@ using runtime::Ref;
 
 auto orderOf(const BitRange& place) { return std::tuple(place.space.index, place.first, place.count); }
 
-// A rung and a place have one entry, for reads and writes. Accesses come by place, and of one place by rung.
+// A rung and a place have one entry, for reads and writes. Accesses are added by place, and for one place by rung.
 void addRungAccess(std::vector<RungAccess>& accesses, const RungAccess& access) {
   for (auto at = accesses.rbegin(); at != accesses.rend() && at->rung == access.rung && at->as == access.as; ++at) {
     if (at->indexed != access.indexed) continue;
@@ -43,7 +43,7 @@ bool Entry::isWritten() const { return std::ranges::any_of(accesses, &RungAccess
 CrossReference::CrossReference(const rung_program& program, const ir::Uses& uses,
                                std::span<const std::string_view> shown)
     : program_(program), uses_(uses), shown_(shown) {
-  // The first of those that are the same lines: of a subprogram that two levels run.
+  // By number and last line, the first of several rungs with the same lines: those of a subprogram that two levels run.
   std::map<std::pair<uint32_t, uint32_t>, uint32_t> drawn; // by number and last line
   for (uint32_t rung = 0; rung < uses.rungCount(); ++rung) {
     const rung_info& info = program.rungs[rung];
@@ -112,7 +112,7 @@ Entry CrossReference::of(const Ref& asked) const {
   return entry;
 }
 
-// A reach is not another place's as a whole where only part of it is: what is copied is so bit by bit.
+// A use that reaches only a part of another place is not a use of the whole: copying is done bit by bit.
 bool CrossReference::reaches(const Use& use, const BitRange& bits) const {
   if (overlap(use.reach, bits)) return true;
   const BitRange copied{use.reach.space, bits.first, bits.count};
@@ -177,11 +177,11 @@ PlaceSet writtenPlaces(const std::vector<UsedPlace>& places) {
   return PlaceSet(std::move(written));
 }
 
-// A cross reference for people.
+// The cross reference as text.
 
 namespace {
 
-// "as D20 to D23", "as 7000, indexed": where the rung's access is not the entry's own place.
+// "as D20 to D23", "as 7000, indexed": if the rung accesses another place than the entry's own.
 std::string formOf(const rung_program& program, const Entry& entry, const RungAccess& access) {
   const std::string_view indexed = access.indexed ? ", indexed" : "";
   if (access.as == bitsOf(entry.place)) return std::string(indexed);
@@ -231,13 +231,13 @@ std::string shownAsText(const CrossReference& reference, const std::vector<Entry
   return out;
 }
 
-// A cross reference for other programs.
+// The cross reference as JSON.
 
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-// With the length of a cell where only that says which of several places at one name it is.
+// With the length of a cell if several places with one name differ only in length.
 std::string addressOf(const rung_program& program, const runtime::Ref& place) {
   return nc::hasAddresses(program) ? nc::address(program, place) : nc::cellAddress(program, place);
 }

@@ -1,7 +1,7 @@
-// Who reads and who writes what: of each place that a program's rungs use or its symbols name, the rungs. Made of the
-// IR as the front end built it (ir/analysis/uses.h), so it says what the program does and not what its text looks like:
-// an operand of four bytes is a use of all of them, an alias one of the place it names, and a latch one of what it was
-// copied from.
+// Which rungs read and which write each place that a program's rungs use or its symbols name. Derived from the IR as
+// the front end built it (ir/analysis/uses.h), so it shows what the program does and not how its text looks: an operand
+// of four bytes is a use of all of them, an alias a use of the place that it names, and a latch a use of the place from
+// which it was copied.
 #pragma once
 #include <algorithm>
 #include <cstdint>
@@ -20,21 +20,21 @@
 namespace rung::report {
 
 struct RungAccess {
-  uint32_t rung = 0; // as in rung_program::rungs; of one that is drawn and several there, the first
+  uint32_t rung = 0; // index in rung_program::rungs; if a drawn rung has several there, the first
   bool reads = false;
   bool writes = false;
-  bool indexed = false; // something is added to the address at run time
-  ir::BitRange as;      // what the rung accesses; the entry's own place, or one that overlaps it
+  bool indexed = false; // whether an index is added to the address at run time
+  ir::BitRange as;      // the place that the rung accesses: the entry's own, or one that overlaps it
 };
 
 struct Entry {
   runtime::Ref place;
-  std::vector<RungAccess> accesses; // by rung, ascending; what an index may lead to from elsewhere is not among them
-  bool controlWrites = false;       // the control or the machine, not a rung
+  std::vector<RungAccess> accesses; // ascending by rung; without indexed accesses of other places that reach it
+  bool controlWrites = false;       // whether the control or the machine writes it
   bool controlReads = false;
-  // By markOdd (odd_names.h).
-  bool declared = false;  // by the program
-  std::string_view odd{}; // what looks like a mistake, e.g. "used by no rung"; empty: nothing does
+  // Set by markOdd (odd_names.h).
+  bool declared = false;  // whether the program declares it
+  std::string_view odd{}; // what looks like a mistake, e.g. "used by no rung"; "" if nothing does
 
   bool isRead() const;
   bool isWritten() const;
@@ -42,15 +42,15 @@ struct Entry {
 
 class CrossReference {
 public:
-  // All must outlive it. `shown`: spaces whose cells the control shows or passes on (frontend::Dialect).
+  // All arguments must outlive it. `shown`: spaces whose cells the control displays or passes on (frontend::Dialect).
   CrossReference(const rung_program& program, const ir::Uses& uses, std::span<const std::string_view> shown);
 
-  // Places that rungs use and places of symbols, each once, in the order of addresses.
+  // The places that rungs use and the places of symbols, each once, by address.
   std::vector<Entry> all() const;
   Entry of(const runtime::Ref& place) const;
-  // Rungs that use something of the place, ascending; each once for every place that it uses.
+  // Rungs that use a part of the place, ascending; a rung appears once for every place that it uses.
   std::vector<RungAccess> accessesOf(const ir::BitRange& place) const;
-  // Rungs whose index may lead to the place, from another one.
+  // Rungs that access another place with an index that may reach this one.
   std::vector<RungAccess> perhaps(const runtime::Ref& place) const;
 
   const rung_program& program() const { return program_; }
@@ -59,8 +59,8 @@ public:
 private:
   struct Use {
     RungAccess access;
-    ir::BitRange place; // that it is listed under, as `reach`
-    ir::BitRange reach; // with an index
+    ir::BitRange place; // the accessed element, as listed
+    ir::BitRange reach; // everything that its index may reach, as listed
     ir::Type type = ir::Type::None;
   };
   void add(uint32_t rung, const ir::RungUse& use);
@@ -72,23 +72,24 @@ private:
   const ir::Uses& uses_;
   const std::span<const std::string_view> shown_;
   std::vector<Use> sorted_;  // by place
-  std::vector<Use> indexed_; // of these
-  uint32_t longest_ = 1;     // bits of an element
+  std::vector<Use> indexed_; // the indexed ones of sorted_
+  uint32_t longest_ = 1;     // bits of the longest element
 };
 
-// For people, an entry a paragraph, and for programs. `entries` are of `reference`; `perhaps`: with the rungs whose
-// index may lead there, which takes time in proportion to the program for each entry.
+// The cross reference as text, a paragraph per entry, and as JSON for programs. `entries` are of `reference`;
+// `perhaps`: also the rungs whose index may reach the place, which takes time in proportion to the program for each
+// entry.
 std::string shownAsText(const CrossReference& reference, const std::vector<Entry>& entries, bool perhaps);
 std::string shownAsJson(const CrossReference& reference, const std::vector<Entry>& entries, bool perhaps);
 
-// The cross reference of a module, with all that it refers to.
+// The cross reference of a module, with everything that it refers to.
 
 class ModuleReference {
 public:
   // `module` and `shown` (see CrossReference) must outlive it.
   ModuleReference(const ir::Module& module, std::span<const std::string_view> shown)
       : layout_(module, {}), image_(layout_, 0), uses_(module), reference_(image_.program(), uses_, shown) {}
-  ModuleReference(const ModuleReference&) = delete; // the parts refer to each other
+  ModuleReference(const ModuleReference&) = delete; // the members refer to each other
   ModuleReference& operator=(const ModuleReference&) = delete;
 
   const CrossReference& get() const { return reference_; }
@@ -100,31 +101,32 @@ private:
   const CrossReference reference_;
 };
 
-// The places that a program's rungs use, as a person would list them.
+// The places that a program's rungs use, as a user would list them.
 
 struct UsedPlace {
-  ir::Use use; // one of them
+  ir::Use use; // one of its uses
   bool read = false;
   bool written = false;
 };
 
-// At fixed addresses, each once and in their order; what a latch holds counts as a use of what it was copied from.
+// Places at fixed addresses, each once, by address; a use of a latch counts as a use of the place from which it was
+// copied.
 std::vector<UsedPlace> usedPlaces(const rung_program& program, const ir::Uses& uses);
 
-// Bits of places, to ask of others whether they share one.
+// A set of bits, to test whether places share one.
 class PlaceSet {
 public:
   explicit PlaceSet(std::vector<ir::BitRange> places);
   bool meets(const ir::BitRange& place) const;
 
 private:
-  std::vector<ir::BitRange> places_; // ascending, none touches the next
+  std::vector<ir::BitRange> places_; // ascending; no two are adjacent
 };
 PlaceSet writtenPlaces(const std::vector<UsedPlace>& places);
 
-// Finds what lies at a place in a list that is sorted by place.
+// Searches a list that is sorted by place for the items that overlap a place.
 
-// What such a list is sorted by first.
+// The first sort key of such a list.
 inline std::pair<uint32_t, uint32_t> startOf(const ir::BitRange& place) { return {place.space.index, place.first}; }
 
 // Calls `visit` with each item of `sorted` that has a bit in common with `place`, in their order. `placeOf` is an

@@ -29,7 +29,7 @@ ChangeKind kindOf(runtime::RungKind kind) {
 
 ShownRung shown(const DrawnRung& drawn) { return {.rung = drawn.rung, .routine = drawn.routine}; }
 
-// Those that are gone come after what they followed.
+// A removed rung follows the rung that it followed before.
 void compareRungs(const PairedRungs& paired, Difference& out) {
   const std::vector<DrawnRung>&before = paired.before(), &after = paired.after();
   std::vector<bool> isThere(before.size(), false);
@@ -58,7 +58,7 @@ void compareRungs(const PairedRungs& paired, Difference& out) {
 
 // ---- names, contents, messages, configuration ---------------------------------------------------------------------
 
-// Of names whose addresses the compiler gives out the type.
+// For names whose addresses the compiler assigns, the type.
 std::string meaningOf(const rung_program& program, const Symbol& symbol) {
   if (!symbol.space.valid()) return fmt::format("constant {}", symbol.value);
   constexpr std::string_view kTypes[] = {"", "bit", "byte", "16 bits", "32 bits", "64 bits", "real"};
@@ -89,7 +89,7 @@ std::map<uint32_t, std::string> messagesOf(const Module& module) {
 std::string textOf(const std::string& text) { return text; }
 std::string textOf(const Setting& setting) { return setting.text; }
 
-// Calls `visit` with key, former and new value of all that differ; null where there is none.
+// Calls `visit` with key, old and new value of all entries that differ; null if there is none.
 template <class Values, class Visit>
 void eachChange(const Values& before, const Values& after, Visit visit) {
   auto b = before.begin();
@@ -127,7 +127,7 @@ std::vector<NameChange> compareNames(const Version& before, const Version& after
   return changes;
 }
 
-// A variable that only one version has counts by what it begins with.
+// Of a variable that only one version has, the initial contents count.
 std::vector<NameChange> compareContents(const Version& before, const Version& after) {
   std::vector<NameChange> changes;
   const Texts names[] = {namesOf(before), namesOf(after)};
@@ -186,7 +186,7 @@ Difference compare(const Version& before, const Version& after, const Options& o
   return difference;
 }
 
-// A difference for other programs.
+// The difference as JSON.
 
 namespace {
 
@@ -240,7 +240,7 @@ std::string shownAsJson(const Difference& difference, const ir::Module& before, 
   return json.dump(2) + "\n";
 }
 
-// A difference for people.
+// The difference as text.
 
 namespace {
 
@@ -286,7 +286,7 @@ void addNames(const std::vector<NameChange>& changes, std::string_view what, std
   }
 }
 
-// One that is not a message says itself what it is.
+// The text of an entry that is not a message says what it is.
 void addMessages(const std::vector<NameChange>& changes, std::string& out) {
   for (const NameChange& change : changes) {
     const bool isMessage = change.name.find_first_not_of("0123456789") == std::string::npos;
@@ -294,7 +294,7 @@ void addMessages(const std::vector<NameChange>& changes, std::string& out) {
   }
 }
 
-// "36 → 38, 40 → 42": what is distinct, or all where one version has more of them; the first ones of many.
+// "36 → 38, 40 → 42": the values that differ, or all if one version has more of them; of many, the first ones.
 std::string shownLines(const LineChange& change) {
   constexpr size_t kShown = 4;
   std::vector<std::string> parts;
@@ -322,7 +322,7 @@ void addLineNumbers(const std::vector<LineChange>& changes, std::string& out) {
 
 std::string_view shownName(const ir::Routine& routine) {
   const std::string_view name = routine.name;
-  return name.substr(0, name.find('@', 1)); // of a unit that is there for each level that runs it
+  return name.substr(0, name.find('@', 1)); // a unit that exists once for each level that runs it
 }
 
 std::string shownAsText(const Difference& difference, const Module& before, const Module& after) {

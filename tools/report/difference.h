@@ -1,4 +1,4 @@
-// What has changed from one version of a program to another, by what its rungs do and not by its lines.
+// The changes from one version of a program to another, by what its rungs do and not by its lines.
 #pragma once
 #include <cstdint>
 #include <map>
@@ -12,36 +12,37 @@
 
 namespace rung::report {
 
-// What a key of the configuration says. Texts that are distinct may mean the same, so what is compared is beside them.
+// The value of a key of the configuration. Different texts may mean the same, so the meaning is compared and not the
+// text.
 struct Setting {
-  std::string text;     // for people
-  std::string meaning;  // equal: the same
-  uint64_t content = 0; // of the file that it names, as a hash; 0: none
+  std::string text;     // for messages
+  std::string meaning;  // equal for equal settings
+  uint64_t content = 0; // hash of the file that it names; 0: none
   bool operator==(const Setting& other) const { return meaning == other.meaning && content == other.content; }
 };
 using Settings = std::map<std::string, Setting>; // by key
 
-// A version of the program, as its front end built it; what it refers to outlives the comparison.
+// A version of the program as its front end built it; everything that it refers to must outlive the comparison.
 struct Version {
   const ir::Module& module;
-  const ir::GivenNumbers& given; // (frontend::CompileOptions::given)
+  const ir::GivenNumbers& given; // from frontend::CompileOptions::given
   const rung_program& program;   // with the module's names and initial contents
   Settings settings;
   std::set<std::string>
-      controlNames; // of the control's own, in upper case: a rung that uses them first declares nothing
+      controlNames; // names of the control, in upper case: the first rung that uses one does not declare it
 };
 
 enum class ChangeKind { Added, Removed, Changed, Moved };
 
 std::string_view nameOf(ChangeKind kind); // "added"
 
-// A rung as its author sees it.
+// A rung with its routine.
 struct ShownRung {
-  const ir::Rung* rung = nullptr;       // null: there is none
-  const ir::Routine* routine = nullptr; // that it is in
+  const ir::Rung* rung = nullptr;       // null: the version has no such rung
+  const ir::Routine* routine = nullptr; // the routine that contains it
 };
 
-// Where a rung leads that does not lead there in the other version.
+// An exit of a rung that leads elsewhere in the other version.
 struct OtherWay {
   std::string before; // "rung 7 "lamps", old.lad:20", "the end of MAIN"
   std::string after;
@@ -50,20 +51,20 @@ struct OtherWay {
 
 struct RungChange {
   ChangeKind kind = ChangeKind::Added;
-  ShownRung before;            // none: added
-  ShownRung after;             // none: removed
-  std::vector<OtherWay> paths; // of a rung that is the same but for where it leads
+  ShownRung before;            // null if added
+  ShownRung after;             // null if removed
+  std::vector<OtherWay> paths; // changed exits of a rung that is otherwise the same
 };
 
-// A name, a message, a key of the configuration, and what it means.
+// A name, a message or a key of the configuration, with its meaning in both versions.
 struct NameChange {
   ChangeKind kind = ChangeKind::Added;
   std::string name;
-  std::string before; // "" of an added one
-  std::string after;  // "" of a removed one
+  std::string before; // "" if added
+  std::string after;  // "" if removed
 };
 
-// A cell that holds the number of the line where a mechanism waits: which numbers it gets, line by line.
+// A cell that holds the number of the line where a mechanism waits, with its possible values.
 struct LineChange {
   std::string name;
   std::vector<uint32_t> before;
@@ -71,31 +72,32 @@ struct LineChange {
 };
 
 struct Difference {
-  std::vector<RungChange> rungs;    // in the order of the new program, removed ones after what they followed
+  std::vector<RungChange> rungs;    // in the order of the new program; a removed rung after the rung that it followed
   std::vector<NameChange> names;    // by name; also bits that have moved where their byte is used as a whole
-  std::vector<NameChange> contents; // initial ones, of names
+  std::vector<NameChange> contents; // changed initial contents, by name
   std::vector<NameChange> messages; // by number
   std::vector<NameChange> settings; // by key
-  std::vector<LineChange> lines;    // that rungs read, by the name of the cell
-  size_t same = 0;                  // rungs
+  std::vector<LineChange> lines;    // cells that rungs read, by name
+  size_t same = 0;                  // number of unchanged rungs
   bool none() const {
     return rungs.empty() && names.empty() && contents.empty() && messages.empty() && settings.empty() && lines.empty();
   }
 };
 
 struct Options {
-  bool messages = true; // they are compared
-  // What a text of the program is to its author, as "button 3"; "" for a message; null: all are messages.
+  bool messages = true; // whether messages are compared
+  // How the author refers to a text of the program, such as "button 3"; "" for a message; null: all texts are messages.
   std::string (*textName)(uint32_t number) = nullptr;
 };
 
 // The result points into both modules.
 Difference compare(const Version& before, const Version& after, const Options& options = {});
 
-// The routine's name for people: the module, level, subroutine or procedure.
+// The routine's name in reports: the module, level, subroutine or procedure.
 std::string_view shownName(const ir::Routine& routine);
 
-// For people: with the lines of rungs as they are written, "-" before those that are gone and "+" before new ones.
+// The difference as text for a terminal, with the lines of rungs as written, "-" before removed and "+" before new
+// ones; and as JSON.
 std::string shownAsText(const Difference& difference, const ir::Module& before, const ir::Module& after);
 std::string shownAsJson(const Difference& difference, const ir::Module& before, const ir::Module& after);
 

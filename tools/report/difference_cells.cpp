@@ -39,7 +39,7 @@ bool isOwn(const Module& module, SpaceId id) {
   return (flags & RUNG_SPACE_ALLOCATED) != 0 && (flags & RUNG_SPACE_HIDDEN) == 0;
 }
 
-// Those with places of the compiler's, as they follow each other: what contains others before these.
+// Cells whose places the compiler assigns, by place: a cell that contains others precedes them.
 std::vector<const Symbol*> cellsOf(const Version& version) {
   std::vector<const Symbol*> cells;
   for (const Symbol& symbol : version.module.symbols)
@@ -52,10 +52,10 @@ std::vector<const Symbol*> cellsOf(const Version& version) {
 
 // ---- names ---------------------------------------------------------------------------------------------------------
 
-// What cells by two names have in common.
+// The common properties of cells under two names.
 struct Form {
   std::string space;
-  std::string previous; // the cell before it that both versions have by one name
+  std::string previous; // the preceding cell that both versions have under the same name
   uint32_t type = 0;
   uint32_t count = 0;
   uint32_t bit = 0;
@@ -63,16 +63,16 @@ struct Form {
   auto operator<=>(const Form&) const = default;
 };
 
-// What rungs do with a cell, apart from all names: which operation of what rung, sorted.
+// The use of a cell by rungs, apart from all names: operations and their rungs, sorted.
 using Roles = std::vector<uint64_t>;
 
 struct NamedCell {
   std::string name;
-  Form form; // without what precedes it
+  Form form; // without `previous`
   Roles roles;
 };
 
-// The operations of a rung without places and numbers, which depend on what else there is.
+// Hash of the operations of a rung without places and numbers, which depend on the rest of the program.
 uint64_t shapeOf(const Rung& rung) {
   std::string shape;
   for (const Op& op : rung.ops) {
@@ -114,7 +114,7 @@ private:
   std::map<uint32_t, Roles> slots_;
 };
 
-// Cells, and the state by which mechanisms continue, which has their names.
+// Cells, and the states by which mechanisms continue, which have names of cells.
 std::vector<NamedCell> namedCellsOf(const Version& version) {
   const Module& module = version.module;
   const RoleFinder roles(module);
@@ -159,7 +159,7 @@ std::map<Form, std::vector<const NamedCell*>> othersOf(const std::vector<NamedCe
   return others;
 }
 
-// First those with which rungs do the same, then the rest in their order.
+// Pairs first the cells with which rungs do the same, then the rest in their order.
 void pairUp(std::vector<const NamedCell*> before, std::vector<const NamedCell*> after, FormerNames& former) {
   std::map<Roles, std::vector<const NamedCell*>> byRoles; // the first one last
   for (const NamedCell* cell : before | std::views::reverse) byRoles[cell->roles].push_back(cell);
@@ -192,7 +192,7 @@ public:
   bool contains(const Symbol& bit) const { return bytes_.contains({bit.space.index, bit.byte}); }
 
 private:
-  // An index may lead to all of the variable that it is counted from.
+  // An index may reach all of the variable to whose address it is added.
   void add(const Rung& rung, std::span<const GivenNumber> given) {
     bool bits = false, others = false; // at computed addresses
     for (const Op& op : rung.ops) {
@@ -209,8 +209,7 @@ private:
         add({number.space, number.byte * 8, (endOf(number) - number.byte) * 8});
   }
 
-  // Where the variable ends. A byte may be the first one of a table, whose other bytes have labels of their own or
-  // none.
+  // The end of the variable. The byte may be the first one of a table, whose other bytes have separate labels or none.
   uint32_t endOf(const GivenNumber& number) const {
     for (const Symbol* cell : cells_) {
       if (cell->space != number.space || cell->byte < number.byte || isBit(*cell) || bytesOf(*cell) == 1) continue;
@@ -238,7 +237,7 @@ struct BitPlace {
   bool isWhole = false;
 };
 
-// By their former names; counted from variables that both versions have.
+// By former names; relative to variables that both versions have.
 std::map<std::string, BitPlace> bitsOf(const Version& version, const FormerNames& former) {
   std::map<std::string, BitPlace> places;
   const WholeBytes whole(version);
@@ -251,7 +250,7 @@ std::map<std::string, BitPlace> bitsOf(const Version& version, const FormerNames
     const auto known = former.find(cell->name);
     if (known == former.end() || (cell->flags & RUNG_SYMBOL_HIDDEN) != 0) continue;
     if (!isBit(*cell)) {
-      // Of several that begin at one place always the same one.
+      // Of several that begin at one place, always the same one is chosen.
       if (!variable.empty() && begin == cell->byte && variable < known->second) continue;
       variable = known->second;
       begin = cell->byte;
@@ -292,7 +291,7 @@ private:
 
   using Place = std::pair<uint32_t, uint32_t>; // space and byte
 
-  // The name that the author knows is the one of the control. The other, of the compiler, is unlike any other.
+  // The author knows the control's name. The other one, by the compiler, is unique.
   void name(const Place& place, const Cell& cell, const FormerNames& former) {
     std::string shown, key;
     for (const Symbol& symbol : module_.symbols) {
@@ -405,7 +404,7 @@ std::string shown(const core::Memory& memory, const Ref& ref) {
   case RefKind::Real: return fmt::format("{}", runtime::readReal(memory, ref));
   case RefKind::Int:
     if (ref.width > 8) return fmt::format("{}", runtime::readSigned(memory, ref));
-    [[fallthrough]]; // a byte is one of any data
+    [[fallthrough]]; // a byte may be part of any data
   case RefKind::Bit:
   case RefKind::Constant: return fmt::format("{}", runtime::readRaw(memory, ref));
   }

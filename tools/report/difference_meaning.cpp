@@ -21,7 +21,7 @@ namespace {
 
 using namespace ir;
 
-// Which of several that are alike an instruction is ("~1") depends on the others, and says nothing of it.
+// The ordinal ("~1") among similar instructions depends on the others, and says nothing about the instruction.
 std::string withoutOrdinals(std::string_view key) {
   std::string text;
   for (size_t at = 0; at < key.size();) {
@@ -50,8 +50,8 @@ public:
 
   bool isAllocated(SpaceId space) const { return (module_.at(space).flags & RUNG_SPACE_ALLOCATED) != 0; }
 
-  // Where the compiler gives addresses out: the name that begins at the place, of a bit for a bit, else the variable
-  // that begins before it, and the distance. What a latch holds is what it is copied from.
+  // If the compiler assigns addresses: for a bit, the name that begins there; otherwise the variable that begins before
+  // it, and the distance. A latch has the name of its source.
   std::string of(SpaceId space, uint64_t bit, bool isBit = false) const {
     for (const Copy* copy : latches_)
       if (copy->to == space && bit / 8 >= copy->toByte && bit / 8 - copy->toByte < copy->from.size)
@@ -70,7 +70,7 @@ public:
   }
 
 private:
-  // Of several at one place one that both versions have.
+  // Of several at one place, one that both versions have is chosen.
   struct Name {
     bool isNew = false;
     std::string text;
@@ -114,19 +114,19 @@ public:
   // In the order of their first parts.
   const std::vector<std::vector<Part>>& rungs() const { return rungs_; }
 
-  // What is reached where control comes to a rung of the module.
+  // The exit that leads to a rung of the module.
   Exit exitTo(uint32_t routine, uint32_t target) const {
     const std::vector<Rung>& rungs = module_.routines[routine].rungs;
     while (target < rungs.size() && rungs[target].number == 0) ++target;
     if (target >= rungs.size()) return {.to = Exit::To::End, .index = routine};
     const uint32_t drawn = drawn_.at(rungs[target].number);
-    uint32_t part = 0; // in its routine: another may have them as well
+    uint32_t part = 0; // within its routine: another routine may have the same rungs
     for (const Part& p : rungs_[drawn])
       if (p.routine == routine && p.rung < target) ++part;
     return {.to = Exit::To::Rung, .index = drawn, .part = part};
   }
 
-  // Of a routine that is there once for each level the first.
+  // For a routine that exists once for each level, the first one.
   uint32_t homeOf(uint32_t routine) const {
     for (const Rung& rung : module_.routines[routine].rungs)
       if (rung.number != 0) return rungs_[drawn_.at(rung.number)][0].routine;
@@ -147,9 +147,9 @@ private:
   std::unordered_map<uint32_t, uint32_t> drawn_; // by number
 };
 
-// ---- cells by which control finds its way ------------------------------------------------------------------------
+// ---- cells that select paths ---------------------------------------------------------------------------------------
 
-// Where a switch leads by the number in a cell: what is stored there is the number of a way.
+// The targets of a switch on the number in a cell: what is stored there selects a path.
 struct Paths {
   uint32_t routine = 0;
   const std::vector<uint32_t>* targets = nullptr;
@@ -163,14 +163,14 @@ public:
         if (const Op* op = cellOf(rung)) cells_.try_emplace(cellKey(*op), Paths{r, &rung.transfer.targets});
   }
 
-  // The load by which the rung's switch is decided.
+  // The load whose value the rung's switch uses.
   static const Op* cellOf(const Rung& rung) {
     if (rung.transfer.kind != TransferKind::Switch) return nullptr;
     for (const Op& op : rung.ops)
       if ((op.code == OpCode::SlotLoad || op.code == OpCode::Load) && op.result == rung.transfer.value) return &op;
     return nullptr;
   }
-  // Null: nothing goes by what the operation stores.
+  // Null: no path depends on what the operation stores.
   const Paths* storedBy(const Op& op) const {
     if (op.code != OpCode::SlotStore && op.code != OpCode::Store) return nullptr;
     const auto at = cells_.find(cellKey(op));
@@ -187,10 +187,9 @@ private:
   std::map<Key, Paths> cells_;
 };
 
-// ---- whose state a slot is ---------------------------------------------------------------------------------------
+// ---- owners of slots ---------------------------------------------------------------------------------------------
 
-// Where a slot is used in what is drawn: what the compiler's own rungs do with the state of an instruction follows from
-// that.
+// The uses of a slot in drawn rungs: those in rungs that the compiler added follow from them.
 class SlotUses {
 public:
   void add(const Rung& rung, const Op& op) {
@@ -199,8 +198,8 @@ public:
     lines_.emplace(rung.begin.file.index, op.line);
     isWritten_ |= op.code == OpCode::SlotStore;
   }
-  // One that ends a rung and begins the next one, as one that waits does, is still in one line. What no drawn rung
-  // writes is the compiler's, as its clocks are.
+  // An instruction that ends a rung and begins the next one, as one that waits does, is still in one line. A slot that
+  // no drawn rung writes is the compiler's own, such as those of its clocks.
   bool ofOneInstruction() const { return isWritten_ && (rungs_.size() == 1 || lines_.size() == 1); }
 
 private:
@@ -209,7 +208,7 @@ private:
   bool isWritten_ = false;
 };
 
-// By slot: it is not the state of one instruction.
+// By slot, whether it is the state of more than one instruction.
 std::vector<bool> sharedSlots(const Module& module) {
   std::vector<SlotUses> uses(module.slots.size());
   for (const Routine& routine : module.routines)
@@ -239,7 +238,7 @@ public:
   }
 
 private:
-  // A unit that two levels run is there twice: what both have is meant once.
+  // A unit that two levels run exists twice: parts that both have count once.
   DrawnRung meaningOf(const std::vector<Drawing::Part>& parts) {
     DrawnRung drawn;
     drawn.routine = &module_.routines[parts[0].routine];
@@ -261,7 +260,7 @@ private:
     return drawn;
   }
 
-  // All parts begin in one line. One that ends later has the lines of the others, too.
+  // All parts begin in the same line. The one that ends last has the lines of all others, too.
   const Rung& longestOf(const std::vector<Drawing::Part>& parts) const {
     const std::vector<Rung>& rungs = module_.routines[parts[0].routine].rungs;
     const Rung* longest = &rungs[parts[0].rung];
@@ -283,7 +282,7 @@ private:
     out += '\n';
   }
 
-  // Constants that a cell of paths gets, also where a choice is made among several.
+  // Constants that may be stored in a cell that selects paths, also as one of several alternatives.
   void findExits(const Rung& rung) {
     waysOf_.clear();
     std::unordered_map<uint32_t, const Op*> definitions;
@@ -310,7 +309,7 @@ private:
     if (transfer.kind == TransferKind::Call)
       exits.push_back({.to = Exit::To::Routine, .index = drawing_.homeOf(transfer.callee.index)});
     if (transfer.kind == TransferKind::Goto) exits.push_back(drawing_.exitTo(routine, transfer.target));
-    // Who stores the number says where it leads.
+    // The exits are those of the rungs that store the number.
     if (transfer.kind != TransferKind::Switch || WayCells::cellOf(rung) != nullptr) return;
     put(out, " {} of {}", transfer.value.index, transfer.targets.size());
     for (const uint32_t target : transfer.targets) exits.push_back(drawing_.exitTo(routine, target));
@@ -363,7 +362,7 @@ private:
     }
   }
 
-  // One that is all of what the compiler gives out grows with it.
+  // A window that covers everything that the compiler assigns grows with it.
   void addWindow(const Op& op, std::string& out) {
     const SpaceId id{op.ref};
     const Space& space = module_.at(id);
@@ -376,7 +375,7 @@ private:
     put(out, " {}", op.count);
   }
 
-  // Cells that an instruction has of its own, as it has slots, go by their order.
+  // Private cells of an instruction are identified by their order, as its slots are.
   void addPlace(SpaceId space, uint64_t bit, bool isBit, std::string& out) {
     const std::string text = places_.of(space, bit, isBit);
     const bool own = places_.isAllocated(space) && (module_.at(space).flags & RUNG_SPACE_HIDDEN) != 0;
@@ -391,7 +390,7 @@ private:
     if (shared_[slot]) {
       if (const auto known = former_.find(info.key); known != former_.end()) return put(out, " {}", known->second);
       std::string_view key = info.key;
-      if (key.starts_with(routine_)) key.remove_prefix(routine_.size()); // a subroutine by another name is the same
+      if (key.starts_with(routine_)) key.remove_prefix(routine_.size()); // equal for a subroutine of another name
       return put(out, " {}", withoutOrdinals(key));
     }
     const auto number = own_.emplace(slot, own_.size()).first->second;
@@ -407,15 +406,15 @@ private:
   const std::vector<bool> shared_; // by slot
   // Of the current rung.
   std::string_view routine_;
-  std::map<uint32_t, size_t> own_; // its slots by their first uses
+  std::map<uint32_t, size_t> own_; // the rung's private slots, in the order of first use
   std::map<std::string, size_t> ownCells_;
   std::unordered_map<uint32_t, const GivenNumber*> numbers_;
-  std::unordered_map<uint32_t, const Paths*> waysOf_; // constants that are numbers of paths
+  std::unordered_map<uint32_t, const Paths*> waysOf_; // constants that select paths
 };
 
 } // namespace
 
-// Source lines give the operations of a module their order. Here they have the one in which they are needed.
+// In a module, source lines determine the order of operations. Here they are in the order in which they are needed.
 std::vector<DrawnRung> drawnRungs(const Module& module, const GivenNumbers& given, const FormerNames& former) {
   std::vector<bool> shared = sharedSlots(module);
   Module ordered = module;

@@ -1,4 +1,4 @@
-// Rungs side by side (see difference_pairs.h).
+// Pairs the rungs of two versions (see difference_pairs.h).
 #include "tools/report/difference_pairs.h"
 
 #include <algorithm>
@@ -22,7 +22,7 @@ std::vector<runtime::RungMark> marksOf(const std::vector<DrawnRung>& rungs, auto
   return marks;
 }
 
-using Counts = std::unordered_map<uint64_t, uint32_t>; // rungs by what they mean
+using Counts = std::unordered_map<uint64_t, uint32_t>; // number of rungs by meaning
 
 struct Body {
   Counts counts;
@@ -85,7 +85,7 @@ PairedRungs::PairedRungs(const Version& before, const Version& after, const Form
     if (pair.kind != runtime::RungKind::Changed) pair.paths = waysOf(before, after, pair);
 }
 
-// By the name; what is left by what the rungs in it mean, the nearest relatives first.
+// Pairs by name; the rest by the meaning of their rungs, the most similar first.
 void PairedRungs::pairRoutines(const Version& before, const Version& after) {
   const std::vector<ir::Routine>&old = before.module.routines, &now = after.module.routines;
   routineBefore_.assign(now.size(), RUNG_NONE);
@@ -117,10 +117,10 @@ void PairedRungs::pairRoutines(const Version& before, const Version& after) {
   }
 }
 
-// What both versions have in one routine and in one order.
+// Finds the rungs that both versions have in one routine and in the same order.
 void PairedRungs::findKept() {
   std::vector<bool> isKept(after_.size(), false);
-  uint32_t last = 0; // those that are the same give the order, those that have changed keep to it
+  uint32_t last = 0; // equal rungs determine the order, changed ones must fit in
   std::vector<uint32_t> open;
   const auto inHome = [&](uint32_t a) { return routineBefore_[homeAfter_[a]] == homeBefore_[pairOf_[a]]; };
   const auto close = [&](uint32_t end) {

@@ -1,4 +1,4 @@
-// The rungs of two versions side by side, and where they lead.
+// The rungs of two versions in pairs, and where they lead.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -11,19 +11,19 @@
 
 namespace rung::report {
 
-// Rungs are aligned by what they mean where they are; a subroutine by another name is the same if most of its rungs are
-// (runtime::alignRungs does the rest). Two rungs that are the same lead to the same where the rungs that they lead to
-// are a pair, or the first ones from there on that both versions have: a rung that comes or goes after a label changes
-// no jump to it.
+// Rungs are aligned by their meaning and their place; a subroutine of another name is the same if most of its rungs are
+// (runtime::alignRungs does the rest). Two equal rungs lead to the same if their targets are a pair, or if the first
+// rungs from the targets on that both versions have are one: inserting or removing a rung after a label changes no jump
+// to it.
 class PairedRungs {
 public:
   PairedRungs(const Version& before, const Version& after, const FormerNames& former);
 
   struct Pair {
-    uint32_t before = 0; // in the list of drawn rungs
+    uint32_t before = 0; // index in the list of drawn rungs
     uint32_t after = 0;
     runtime::RungKind kind = runtime::RungKind::Same;
-    std::vector<OtherWay> paths; // of rungs that mean the same
+    std::vector<OtherWay> paths; // changed exits of rungs that mean the same
   };
 
   const std::vector<DrawnRung>& before() const { return before_; }
@@ -38,12 +38,12 @@ private:
 
   const std::vector<DrawnRung> before_;
   const std::vector<DrawnRung> after_;
-  std::vector<uint32_t> routineBefore_;          // of each routine of the new version the former one; RUNG_NONE: none
+  std::vector<uint32_t> routineBefore_;          // for each routine of the new version, the former one; RUNG_NONE: none
   std::vector<uint32_t> homeBefore_, homeAfter_; // the routine of each drawn rung
   std::vector<Pair> pairs_;
-  std::vector<uint32_t> pairOf_; // of each rung after, the rung before; RUNG_NONE: none
-  // Of each rung the first from it on, in its routine, that both versions have in their order, by its number before;
-  // RUNG_NONE: the end.
+  std::vector<uint32_t> pairOf_; // for each new rung, the old one; RUNG_NONE: none
+  // For each rung, the first one from it on in its routine that both versions have in the same order, by its old
+  // number; RUNG_NONE: the end.
   std::vector<uint32_t> keptBefore_, keptAfter_;
 };
 

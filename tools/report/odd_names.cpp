@@ -31,20 +31,20 @@ constexpr std::string_view kNeverReset = "set, but reset by no rung";
 using Key = std::tuple<uint32_t, uint32_t, uint32_t>; // space, first bit, bits
 Key keyOf(const ir::BitRange& place) { return {place.space.index, place.first, place.count}; }
 
-// What looks like a mistake about a place, and the operand that shows it.
+// A likely mistake about a place, and the operand that shows it.
 struct Oddity {
   Diag code{};
   SourceRange operand;
 };
 
-// What is done with a place.
+// How a place is used.
 struct Sides {
   bool read = false;
   bool written = false;
-  bool isDue = false;                // written by a coil that has to be there
-  bool isChanged = false;            // written otherwise than set
+  bool isDue = false;                // written by a coil that the instruction requires
+  bool isChanged = false;            // written other than by setting it
   SourceRange set;                   // the coil that sets it
-  std::vector<SourceRange> operands; // that do it
+  std::vector<SourceRange> operands; // those that access it
 
   void add(bool reads, bool writes) {
     read |= reads;
@@ -64,8 +64,8 @@ public:
     for (const Placed& one : operands_) longest_ = std::max(longest_, one.place.count);
   }
 
-  // Of a place that the program names. `used`: also otherwise than as an operand. `reach`: the bits of the widest
-  // operand by that name, such as a double, of which each part may be read or written by itself.
+  // The oddities of a place that the program names. `used`: also other than as an operand. `reach`: the bits of the
+  // widest operand of that name, such as a double, each part of which may be read or written separately.
   std::vector<Oddity> odditiesOf(const ir::BitRange& place, bool used, uint32_t reach) const;
   std::vector<OddName> names() {
     for (uint32_t i = 0; i < used_.size(); ++i) {
@@ -81,7 +81,7 @@ private:
     const OperandUse* operand;
   };
 
-  // A file that several others include declares its names in each of them.
+  // A file that several others include declares its names once per inclusion.
   using Place = std::tuple<std::string_view, uint32_t, uint32_t>; // file, line, column
   Place placeOf(const Definition& definition) const {
     const LineCol at = sources_.lineCol(definition.range.begin);
@@ -104,7 +104,7 @@ private:
   Sides operandsAt(const ir::BitRange& place) const;
   using Line = std::pair<std::string_view, uint32_t>;
   std::vector<Line> linesOf(const std::vector<SourceRange>& operands) const;
-  bool isIn(const std::vector<Line>& lines, uint32_t rung) const; // some of them
+  bool isIn(const std::vector<Line>& lines, uint32_t rung) const; // some of the lines
   void addImplicit(const ir::BitRange& place, Sides& sides) const;
   bool mayChange(const ir::BitRange& place, const Sides& sides) const;
   void reportUnused(const Definition& definition);
@@ -118,7 +118,7 @@ private:
   std::vector<uint32_t> reach_; // by definition, see odditiesOf
   std::set<Place> settled_;     // of definitions that are used, or have been reported as unused
   std::vector<Placed> operands_;
-  uint32_t longest_ = 1; // bits of an operand's place
+  uint32_t longest_ = 1; // most bits of an operand's place
 };
 
 Sides Checker::operandsAt(const ir::BitRange& place) const {
@@ -135,7 +135,7 @@ Sides Checker::operandsAt(const ir::BitRange& place) const {
   return sides;
 }
 
-// File and line of each, sorted.
+// File and line of each operand, sorted.
 std::vector<Checker::Line> Checker::linesOf(const std::vector<SourceRange>& operands) const {
   std::vector<Line> lines;
   for (const SourceRange operand : operands) {
@@ -155,7 +155,7 @@ bool Checker::isIn(const std::vector<Line>& lines, uint32_t rung) const {
   return at != lines.end() && at->first == file && at->second <= info.last_line;
 }
 
-// What no operand says. A rung that has an operand there does what that says.
+// Adds uses without an operand. A rung with an operand for the place does only what the operand says.
 void Checker::addImplicit(const ir::BitRange& place, Sides& sides) const {
   const std::vector<Line> lines = linesOf(sides.operands);
   for (const RungAccess& access : reference_.accessesOf(place))
@@ -164,7 +164,7 @@ void Checker::addImplicit(const ir::BitRange& place, Sides& sides) const {
   for (const RungAccess& access : reference_.perhaps(refAt(place))) sides.add(access.reads, access.writes);
 }
 
-// Whether something but its setting coils writes a place, among these the operator, the control and an index.
+// Whether anything but its setting coils writes a place, including the operator, the control and an index.
 bool Checker::mayChange(const ir::BitRange& place, const Sides& sides) const {
   if (sides.isChanged || reference_.uses().isRetained(place) || reference_.of(refAt(place)).controlWrites) return true;
   const std::vector<Line> lines = linesOf(sides.operands);
@@ -205,7 +205,7 @@ std::vector<Oddity> Checker::odditiesOf(const ir::BitRange& place, bool used, ui
 void Checker::check(const Definition& definition, bool used, uint32_t reach) {
   const std::optional<ir::BitRange> place = rangeOf(reference_.program(), definition.place);
   if (!place) {
-    const bool isTarget = analysis_.targetAt(definition.range) != nullptr; // a label, a procedure
+    const bool isTarget = analysis_.targetAt(definition.range) != nullptr; // a label or a procedure
     if (!used && !definition.usedByControl && (definition.isConstant() || isTarget)) reportUnused(definition);
     return;
   }
@@ -219,7 +219,7 @@ std::string_view textOf(Diag code) {
   return code == diag::NeverRead ? kWrittenOnly : kUnused;
 }
 
-// Of several oddities of a place, that it is only read or only written is shown.
+// Of several oddities of a place, that it is only read or only written takes precedence.
 void add(std::string_view& shown, Diag code) {
   if (shown.empty() || shown == kNeverReset) shown = textOf(code);
 }
@@ -232,7 +232,8 @@ std::vector<OddName> oddNames(const SourceManager& sources, const Analysis& anal
 
 namespace {
 
-// Of `allow(…)` with a word that is not the code of a warning, but resembles one: a remark may have brackets, too.
+// For `allow(…)` with a word that is not the code of a warning, but resembles one; other words may be a remark in
+// brackets.
 void reportUnknownCodes(const Definition& definition, Diagnostics& diagnostics) {
   for (const std::string_view code : allowedCodes(definition.comment)) {
     if (findDiag(code) != nullptr) continue;
@@ -266,7 +267,7 @@ void markOdd(const SourceManager& sources, const Analysis& analysis, const Cross
              std::vector<Entry>& entries) {
   const auto placeOf = [&](const frontend::NamedPlace& place) { return rangeOf(reference.program(), place); };
   Checker checker(sources, analysis, reference);
-  std::map<Key, std::string_view> declared; // to what is odd about it; of two names at one place the first that is
+  std::map<Key, std::string_view> declared; // to its oddity; for two names at one place, the first oddity
   std::vector<ir::BitRange> controls, operands;
   for (const Definition& definition : analysis.definitions()) {
     const auto place = placeOf(definition.place);
@@ -277,8 +278,8 @@ void markOdd(const SourceManager& sources, const Analysis& analysis, const Cross
     if (const auto place = placeOf(name.definition->place)) add(declared[keyOf(*place)], name.code);
   for (const OperandUse& operand : analysis.operands())
     if (const auto place = placeOf(operand.place)) operands.push_back(*place);
-  const PlaceSet ofControl(std::move(controls)); // these are part of its interface, used or not
-  const PlaceSet named(std::move(operands));     // the rest belongs to instructions, as their flags do
+  const PlaceSet ofControl(std::move(controls)); // part of the control's interface, used or not
+  const PlaceSet named(std::move(operands));     // the rest belongs to instructions, such as their flags
   for (Entry& entry : entries) {
     const ir::BitRange bits = bitsOf(entry.place);
     const auto name = declared.find(keyOf(bits));

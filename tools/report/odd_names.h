@@ -9,24 +9,24 @@
 namespace rung::report {
 
 struct OddName {
-  const frontend::Definition* definition = nullptr; // of the analysis
-  Diag code{};                                      // of the warning
-  SourceRange operand;                              // that shows it; invalid: none does
+  const frontend::Definition* definition = nullptr; // from the analysis
+  Diag code{};                                      // code of the warning
+  SourceRange operand;                              // an operand that shows it; invalid: none does
 };
 
-// Without those whose comment in the declaration says `allow(CODE)` with the code of the warning. What an index may
-// lead to counts as read or written, and so does what the control or the machine does; what is kept through power-off
-// the operator may set and look at. The coil that an instruction must have needs no reader.
+// The odd names, except those whose declaration has a comment `allow(CODE)` with the code of the warning. A place that
+// an index may reach counts as read or written, and so does one that the control or the machine uses; the operator may
+// set and look at what is retained. A coil that an instruction requires needs no reader.
 std::vector<OddName> oddNames(const SourceManager& sources, const frontend::Analysis& analysis,
                               const CrossReference& reference);
-// Warns of these, and of names over others, at the declarations.
+// Warns of these names, and of names that overlap others, at the declarations.
 void reportOddNames(const SourceManager& sources, const frontend::Analysis& analysis, const CrossReference& reference,
                     Diagnostics& diagnostics);
-// The same of a program that is laid out; `shown`: see CrossReference.
+// The same for a program whose memory is laid out; `shown`: see CrossReference.
 void reportOddNames(const SourceManager& sources, const frontend::Analysis& analysis, const ir::Layout& layout,
                     const ir::Uses& uses, std::span<const std::string_view> shown, Diagnostics& diagnostics);
-// Says of the entries which are declared and what is odd about them; of addresses that the program's operands name by
-// the same rules. Nothing is odd about what the control has by a name of its own.
+// Marks the entries that are declared and what is odd about them; of the addresses that the program's operands name by
+// the same rules. Names that the control itself has are never odd.
 void markOdd(const SourceManager& sources, const frontend::Analysis& analysis, const CrossReference& reference,
              std::vector<Entry>& entries);
 

@@ -1,4 +1,4 @@
-// Names over names (see overlaps.h).
+// Names that overlap others (see overlaps.h).
 #include "tools/report/overlaps.h"
 
 #include <algorithm>
@@ -24,7 +24,7 @@ using frontend::OperandUse;
 struct Name {
   uint32_t definition = 0;
   ir::BitRange place;
-  SourceRange widened; // the operand that makes it wider than its declaration; invalid: none does
+  SourceRange widened; // the operand that makes it wider than its declaration; invalid: none
 };
 
 class Checker {
@@ -56,9 +56,9 @@ private:
   const Analysis& analysis_;
   const CrossReference& reference_;
   Diagnostics& diagnostics_;
-  std::vector<const OperandUse*> operands_; // that begin with a name, by its definition
+  std::vector<const OperandUse*> operands_; // operands that begin with a name, by its definition
   std::vector<Name> names_;                 // by place
-  uint32_t longest_ = 1;                    // bits of a name's place
+  uint32_t longest_ = 1;                    // most bits of a name's place
 };
 
 Checker::Checker(const SourceManager& sources, const Analysis& analysis, const CrossReference& reference,
@@ -100,8 +100,8 @@ bool Checker::isWrittenBy(const Name& name, const ir::BitRange& bits) const {
   });
 }
 
-// A rung reads and writes all of it, as those with timers, counters and sums do. A word of flags is tested in one rung
-// and cleared in another one.
+// A number is read and written as a whole by one rung, as in rungs with timers, counters and sums. A word of flags is
+// tested in one rung and cleared in another one.
 bool Checker::isNumber(const ir::BitRange& place) const {
   return std::ranges::any_of(reference_.accessesOf(place), [&](const RungAccess& access) {
     return access.reads && access.writes && access.as == place;
@@ -127,14 +127,14 @@ bool Checker::isReachedBy(const Definition& name, const Name& other) const {
   return std::ranges::count(waysTo(name), other.definition) != 0;
 }
 
-// Whether the name is over the other one only by an operand that is wider than its declaration.
+// Whether the name overlaps the other one only through an operand that is wider than its declaration.
 bool Checker::isWidenedOver(const Name& name, const Name& other) const {
   const auto declared = rangeOf(reference_.program(), definitionOf(name).place);
   return name.widened.valid() && declared && !ir::overlap(*declared, other.place);
 }
 
-// Whether a report of the two is wanted. Names that the declarations put over one another without an address, as bits
-// over their byte, are meant. A file that several others include declares its names in each of them.
+// Whether a report of the two is wanted. Overlaps that declarations create without an address, such as bits of their
+// byte, are intended. A file that several others include declares its names once per inclusion.
 bool Checker::meets(const Name& name, const Name& other, Diag code) const {
   const Definition& one = definitionOf(name);
   const Definition& two = definitionOf(other);
@@ -151,8 +151,8 @@ bool Checker::overlaps(const Name& wide, const Name& other) const {
 
 void Checker::check(const Name& name) {
   const Name* first = nullptr;
-  const Name* before = nullptr; // of the same place
-  bool isMeant = false;         // by way of one of them
+  const Name* before = nullptr; // for the same place
+  bool isMeant = false;         // declared in terms of one of them
   const std::vector<uint32_t> paths = waysTo(definitionOf(name));
   size_t count = 0;
   forEachAt(

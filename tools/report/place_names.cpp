@@ -74,7 +74,7 @@ std::string shownName(const rung_program& program, const Ref& place) {
   const std::string address = nc::address(program, place);
   if (symbol.empty()) {
     const std::string cell = nc::cellAddress(program, place);
-    const bool isLonger = place.kind == RefKind::Int && cell != address; // D10:2, which is not another name of D10
+    const bool isLonger = place.kind == RefKind::Int && cell != address; // D10:2 is not another name of D10
     return nc::hasAddresses(program) && !isLonger ? nc::describe(program, place) : cell;
   }
   return nc::hasAddresses(program) && address != symbol ? fmt::format("{} ({})", symbol, address) : symbol;
@@ -114,7 +114,7 @@ bool isInterfaceOutput(const rung_program& program, const Ref& place) {
   });
 }
 
-// Of a space that is only the one or the other.
+// Whether a space is only an input or only an output, as `flag` says.
 bool isOnly(const rung_program& program, uint32_t space, uint32_t flag) {
   return (program.spaces[space].flags & (RUNG_SPACE_INPUT | RUNG_SPACE_OUTPUT)) == flag;
 }

@@ -22,7 +22,7 @@ constexpr int kVersion = 1;
 
 std::vector<BranchCounter::If> BranchCounter::ifsOf(const ir::Rung& rung) {
   struct Region {
-    uint32_t number = 0; // of its if
+    uint32_t number = 0; // number of its if
     bool inElse = false;
   };
   std::vector<If> ifs;
@@ -42,7 +42,7 @@ std::vector<BranchCounter::If> BranchCounter::ifsOf(const ir::Rung& rung) {
   return ifs;
 }
 
-// Rungs of the same key are the same text in several places, and count together.
+// Rungs with the same key have the same text in several places, and are counted together.
 BranchCounter::BranchCounter(const ir::Module& module, ir::BranchCounts& counts) {
   for (const ir::Routine& routine : module.routines)
     for (const ir::Rung& rung : routine.rungs) {

@@ -144,7 +144,7 @@ std::string rungLine(const Row& row) {
          row.file + ":" + std::to_string(row.line) + (row.title.empty() ? "" : "  " + row.title) + "\n";
 }
 
-// One line for all rungs of the compiler: their times are not those of one rung.
+// One line for all rungs added by the compiler: the times are not those of one rung.
 std::string addedLine(const std::vector<Row>& added) {
   Row sum;
   for (const Row& row : added) {
@@ -194,7 +194,7 @@ uint64_t roundedAbove0(double value) { return value <= 0 ? 0 : static_cast<uint6
 
 } // namespace
 
-// What the counter has counted since it was last taken, without any cost; it may be less than nothing.
+// What the counter has counted since the last call, without the cost of measuring; may be negative.
 double ProfileCollector::take(size_t rung, const rung_prof& counter) noexcept {
   rung_prof& last = last_[rung];
   const uint64_t executions = counter.count - last.count;

@@ -1,6 +1,6 @@
-// Reads the counters of an instrumented program between its scans: how often each rung ran, and what it took in each
-// scan. What the counters count is the engine's: ticks of the clock, or operations. After construction nothing here
-// allocates, so a host may use it beside a running machine.
+// Reads the counters of an instrumented program between its scans: how often each rung ran, and what it cost in each
+// scan. The engine determines the unit of the counters: ticks of the clock, or operations. Nothing allocates after
+// construction, so a host may use it beside a running machine.
 //
 //   ProfileCollector collector(program.rung_count, runtime::calibratedClock().costTicks);
 //   collector.started(instance.profile());               // after every start
@@ -22,25 +22,25 @@ class ProfileCollector {
 public:
   struct Rung {
     uint64_t executions = 0;
-    double total = 0;   // without any cost
-    uint64_t scans = 0; // in which it ran
-    // What it took in them. The cost of one execution is still in it: a clock with coarse steps shows less than its
-    // cost now and then, and only means know how much a rung adds to it.
+    double total = 0;   // without the cost of measuring
+    uint64_t scans = 0; // number of scans in which it ran
+    // Cost per scan in which it ran. It includes the cost of measuring one execution: a clock with coarse steps
+    // sometimes shows less than that cost, so only means can be corrected by it.
     runtime::Histogram perScan;
   };
 
-  // `cost`: what measuring one execution adds.
+  // `cost`: what measuring one execution adds, in the unit of the counters.
   ProfileCollector(uint32_t rungs, double cost) : cost_(cost), rungs_(rungs), last_(rungs), scan_(rungs) {}
 
-  // The counters have begun at 0 with a start, of this instance or another one: what they show belongs to no scan.
+  // A start has reset the counters to 0, of this instance or another one: what they show now belongs to no scan.
   void started(std::span<const rung_prof> counters) noexcept;
-  // What has been counted since the last call was one scan.
+  // One scan has run since the last call.
   void scanned(std::span<const rung_prof> counters) noexcept;
 
   uint64_t scans() const { return scans_; }
   std::span<const Rung> rungs() const { return rungs_; }
   double cost() const { return cost_; }
-  // What each rung took in the last scan, without any cost; 0 when it did not run.
+  // What each rung took in the last scan, without the cost of measuring; 0 if it did not run.
   std::span<const uint64_t> lastScan() const { return scan_; }
   uint64_t lastScanTotal() const { return scanTotal_; }
 
@@ -55,18 +55,17 @@ private:
   uint64_t scans_ = 0;
 };
 
-// Reports on an instrumented program: what each rung did, from what collectors have read of its counters.
+// Reports on an instrumented program: the cost of each rung, from the counters that collectors have read.
 
 enum class Order : uint8_t {
-  Operations, // executed in a run: exact, the same in every run
-  Time,       // Row::time
+  Operations, // operations executed in a run: exact, the same in every run
+  Time,       // by Row::time
 };
 
-// A rung. Counts are those of one run; times are nanoseconds of a scan in which the rung ran, without the cost of
-// measuring.
+// One rung. Counts are of one run; times are nanoseconds per scan in which the rung ran, without the cost of measuring.
 struct Row {
-  uint32_t rung = 0;   // in rung_program::rungs
-  uint32_t number = 0; // as drawn; 0: the compiler made it
+  uint32_t rung = 0;   // index in rung_program::rungs
+  uint32_t number = 0; // as drawn; 0: a rung that the compiler added
   uint64_t key = 0;
   std::string routine;
   std::string title;
@@ -74,14 +73,14 @@ struct Row {
   uint32_t line = 0;
   uint64_t executions = 0;
   uint64_t operations = 0;
-  uint64_t scans = 0; // in which it ran
+  uint64_t scans = 0; // number of scans in which it ran
   double minNs = 0;
   double medianNs = 0;
-  double meanNs = 0; // of all scans but the slowest hundredth: a clock that steps in 10 ns has no finer median
+  double meanNs = 0; // mean over all scans but the slowest hundredth: a clock with steps of 10 ns has no finer median
   double p99Ns = 0;
   double maxNs = 0;
-  double time = 0;  // `scans` times `meanNs`: what the rung costs when nothing else disturbs the machine
-  double share = 0; // of the sum of what the rows are ordered by, 0..1
+  double time = 0;  // `scans` times `meanNs`: the rung's cost without disturbances
+  double share = 0; // share of the sum of what the rows are ordered by, 0 to 1
 };
 
 struct ProfileReport {
@@ -89,37 +88,37 @@ struct ProfileReport {
   std::string dialect;
   Order order = Order::Operations;
   runtime::ProfileClock clock;
-  std::vector<Row> rows;  // those that ran
-  std::vector<Row> added; // those of the compiler that ran
-  std::vector<Row> never; // the others of the source, as the program has them
+  std::vector<Row> rows;  // rungs that ran
+  std::vector<Row> added; // rungs added by the compiler that ran
+  std::vector<Row> never; // rungs of the source that did not run, in the program's order
   uint64_t operations = 0;
   double time = 0;
 };
 
-// `operations` counted operations while the program ran once, `ticks` the clock while it ran once or several times;
-// either may be null. Without operations the order is that of the time.
+// `operations` counted operations in one run of the program, `ticks` clock ticks in one or several runs; either may be
+// null. Without operations, the rows are ordered by time.
 ProfileReport makeReport(const rung_program& program, const ProfileCollector* operations, const ProfileCollector* ticks,
                          const runtime::ProfileClock& clock, Order order);
 
-// A rung that did more in one scan than it usually does.
+// A rung that cost more in one scan than it usually does.
 struct Cause {
   Row row;
   double value = 0;
-  double usual = 0;      // median of all scans
-  bool onlyThen = false; // it ran in no other scan
+  double usual = 0;      // median over all scans
+  bool onlyThen = false; // whether it ran in no other scan
 };
 
-// The scan that took the most. What it took and what is usual: operations, or nanoseconds.
+// The scan that cost the most. Costs are in operations or nanoseconds.
 struct WorstScan {
   bool known = false;
   std::string scenario;
-  uint64_t scan = 0;  // of this scenario, from 1
-  int64_t timeUs = 0; // when it ended
-  std::string file;   // of the statement that ran it
+  uint64_t scan = 0;  // number in this scenario, from 1
+  int64_t timeUs = 0; // at its end
+  std::string file;   // position of the statement that ran it
   uint32_t line = 0;
   double value = 0;
-  double usual = 0;          // median of all scans
-  std::vector<Cause> causes; // the largest difference first
+  double usual = 0;          // median over all scans
+  std::vector<Cause> causes; // in descending order of the difference
 };
 
 struct Profile {
@@ -127,11 +126,11 @@ struct Profile {
   std::string engine;
   std::vector<std::string> scenarios;
   uint64_t codeHash = 0;
-  uint64_t scans = 0; // of one run
+  uint64_t scans = 0; // number of scans in one run
   uint32_t repeat = 0;
   Spread scanOperations;
   std::vector<Deadline> deadlines; // the whole scan first
-  double measuredScanNs = 0;       // median of a whole scan with counters and clock
+  double measuredScanNs = 0;       // median of a whole scan with counters and clock running
   WorstScan worstByOperations;
   WorstScan worstByTime;
 };
@@ -145,13 +144,15 @@ struct Sum {
   uint64_t executions = 0;
   uint64_t operations = 0;
   double time = 0;
-  double share = 0; // as in Row
+  double share = 0; // as Row::share
 };
 
-// The largest first. A module is the part of a routine's name before its dot; rungs of the compiler may be in no file.
+// Sums in descending order. A module is the part of a routine's name before the dot; rungs added by the compiler may be
+// in no file.
 std::vector<Sum> sums(const ProfileReport& report, SumBy by);
 
-// As in the text of a fault: rung 7 "title", main.pmc:40; of a rung of the compiler MAIN, main.pmc:1.
+// The rung's place, as in the text of a fault: rung 7 "title", main.pmc:40; for a rung added by the compiler MAIN,
+// main.pmc:1.
 std::string placeText(const Row& row);
 // Tables of at most `limit` lines; 0: all.
 std::string rungTable(const ProfileReport& report, uint32_t limit);

@@ -1,4 +1,4 @@
-// What is printed.
+// Output of a profile.
 #include "tools/report/profile_text.h"
 
 #include <fmt/format.h>
@@ -38,7 +38,7 @@ std::string headText(const Profile& profile) {
   return text + "\n";
 }
 
-// The measurement says what it costs.
+// The overhead of the measurement.
 std::string costText(const Profile& profile) {
   return fmt::format("a scan takes {} ({} while measured); the overhead of {} per rung is already subtracted\n",
                      durationText(profile.deadlines[0].ns.median), durationText(profile.measuredScanNs),
@@ -93,7 +93,7 @@ std::string neverText(const ProfileReport& report) {
   return text;
 }
 
-// "+12.5%"; nothing when there was nothing before.
+// "+12.5%"; nothing if the value before was 0.
 std::string growthText(double now, double before) {
   return before <= 0 ? "" : fmt::format(" ({:+.1f}%)", (now / before - 1) * 100);
 }
@@ -287,17 +287,17 @@ std::string profileJson(const Profile& profile, const Comparison* comparison) {
       {"never", listJson(report.never, placeJson)},
   };
   if (comparison != nullptr) json["baseline"] = comparisonJson(*comparison);
-  // Titles come from source files of any encoding: what is not UTF-8 is replaced, not thrown.
+  // Titles come from source files of any encoding: invalid UTF-8 is replaced, and does not throw.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-// Reading and matching.
+// Reading and matching a former profile.
 
 namespace {
 
 using ReadJson = nlohmann::json;
 
-constexpr double kClearShare = 0.01; // of the whole time: a smaller difference of one rung is noise
+constexpr double kClearShare = 0.01; // share of the whole time: a smaller difference of one rung is noise
 constexpr double kClearRatio = 1.25;
 
 Row readRow(const ReadJson& json) {
@@ -337,8 +337,7 @@ std::vector<Row> allRows(const ProfileReport& report) {
   return rows;
 }
 
-// Rows of both profiles, each pair of the same rung. In the order of the programs, so that rungs of one text keep
-// theirs.
+// The rows of both profiles, to be matched by rung. In program order, so that rungs with the same text keep theirs.
 class Matching {
 public:
   Matching(std::vector<Row> now, std::vector<Row> old) : now_(std::move(now)), old_(std::move(old)) {
@@ -358,7 +357,7 @@ public:
   }
 
 private:
-  // Pairs what is left and has the same name; an empty name fits nothing.
+  // Pairs the remaining rows with equal names; an empty name matches nothing.
   template <class Name>
   void match(Name name) {
     std::multimap<std::string, size_t> byName;
@@ -366,7 +365,7 @@ private:
       if (!taken_[i]) byName.emplace(name(old_[i]), i);
     for (size_t i = 0; i < now_.size(); ++i) {
       if (partner_[i] != nullptr || name(now_[i]).empty()) continue;
-      const auto found = byName.find(name(now_[i])); // the first in the program
+      const auto found = byName.find(name(now_[i])); // the first in program order
       if (found == byName.end()) continue;
       partner_[i] = &old_[found->second];
       taken_[found->second] = true;

@@ -1,4 +1,4 @@
-// Compares a profile with one that `rungc profile --json` wrote before.
+// Compares a profile with an earlier one that `rungc profile --json` wrote.
 #pragma once
 #include <string>
 #include <string_view>
@@ -9,7 +9,7 @@
 
 namespace rung::report {
 
-// A profile as read back; a row has what a comparison needs.
+// A profile that was read back; its rows have only the fields that a comparison needs.
 struct Baseline {
   std::string program;
   std::vector<std::string> scenarios;
@@ -18,40 +18,40 @@ struct Baseline {
   double time = 0;
   Spread scanOperations;
   double scanMedianNs = 0;
-  std::vector<Row> rows; // those that never ran too
+  std::vector<Row> rows; // including those that never ran
 };
 
-// Fails with what is wrong with the text.
+// The error says what is wrong with the text.
 Result<Baseline> readBaseline(std::string_view text);
 
 struct Change {
-  Row row; // of the new profile; of the old one when the rung is gone
+  Row row; // row of the new profile; of the old one if the rung was removed
   uint64_t oldOperations = 0;
   double oldMeanNs = 0;
 };
 
-// Every rung in one list at most, what changed most first.
+// Differences of two profiles. Every rung is in at most one list; the largest changes come first.
 struct Comparison {
   Baseline old;
-  std::vector<Change> more;   // operations
-  std::vector<Change> fewer;  // operations
-  std::vector<Change> slower; // the same operations in clearly more time
+  std::vector<Change> more;   // by operations
+  std::vector<Change> fewer;  // by operations
+  std::vector<Change> slower; // the same operations in considerably more time
   std::vector<Change> faster;
   std::vector<Change> added; // rungs that the old program did not have
   std::vector<Change> gone;
 };
 
-// A rung is found again by its key, which holds while its text is unchanged, then by its title in its routine.
+// A rung is matched by its key, which holds while its text is unchanged, then by its title in its routine.
 Comparison compare(const ProfileReport& now, Baseline old);
 
 // A profile as text for a terminal, and as JSON (docs/profile-format.md).
 
 struct ProfileTextOptions {
-  uint32_t top = 20;  // lines a table; 0: all
-  bool never = false; // list the rungs that never ran
+  uint32_t top = 20;  // lines per table; 0: all
+  bool never = false; // whether rungs that never ran are listed
 };
 
-// Rungs as drawn; one that calls has several rows in the report.
+// Numbers of rungs as drawn; a rung that calls has several rows in the report.
 struct DrawnRungs {
   size_t ran = 0;
   size_t all = 0;

@@ -1,6 +1,6 @@
-// Times of whole scans, slices and runs of tasks, of the program alone: what the simulated NC does between them does
-// not count. A scenario does the same work in every run, so each piece of it keeps the shortest time of all runs: what
-// remains is the program's, whatever else the machine did meanwhile.
+// Times of whole scans, slices and runs of tasks, of the program alone, without the work of the simulated NC between
+// them. A scenario does the same work in every run, so each scan, slice or task run keeps the shortest of its times
+// over all runs: what remains is the program's own time, undisturbed by other load of the computer.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace rung::report {
 
-// The pieces of a run in their order, each with the shortest of its times so far.
+// The measured parts of a run in their order, each with its shortest time so far.
 class Shortest {
 public:
   void rewind() { next_ = 0; }
@@ -32,32 +32,32 @@ struct Spread {
   double max = 0;
 };
 
-// Of all values times `scale`.
+// Spread of all values, each multiplied by `scale`.
 Spread spreadOf(std::vector<uint64_t> values, double scale);
 
-// Something that has to be done in a time.
+// Measured times of something that must finish within its period.
 struct Deadline {
   std::string name;    // "scan", "slice of 8 ms", a task
-  double periodUs = 0; // 0: none
+  double periodUs = 0; // 0: no period
   Spread ns;
 };
 
-// Watches the tasks of one program through all runs.
+// Measures the tasks of one program over all runs.
 class ScanTimes final : public runtime::TaskWatch {
 public:
-  // A run of all scenarios begins.
+  // Begins another run of all scenarios.
   void rewind();
-  // A new instance of a scenario.
+  // A scenario has started a new instance.
   void started(const runtime::Instance& instance);
-  // What has run since the last call was a scan, whole or not.
+  // A scan, or with `whole` false a part of one, has run since the last call.
   void scanned(bool whole);
 
   void begins(const runtime::Instance& instance, uint32_t task) override;
   void ended(const runtime::Instance& instance, uint32_t task) override;
 
   const Shortest& scans() const { return scans_; }
-  const std::vector<Shortest>& tasks() const { return tasks_; } // runs of each; empty before a start
-  // The scan, its slices when it has several, and each task that ran.
+  const std::vector<Shortest>& tasks() const { return tasks_; } // one entry per task; empty before a start
+  // The whole scan, its slices if it has several, and each task that ran.
   std::vector<Deadline> deadlines(const rung_program& program, const runtime::ProfileClock& clock) const;
 
 private:
@@ -73,7 +73,7 @@ private:
   int64_t sliceUs_ = -1;
 };
 
-// Microseconds of the shortest slice of a scan.
+// The shortest slice of a scan, in microseconds.
 uint64_t slicePeriodUs(const rung_program& program);
 
 } // namespace rung::report

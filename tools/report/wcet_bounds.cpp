@@ -1,4 +1,4 @@
-// The bounds.
+// Computes the bounds.
 #include "tools/report/wcet_bounds.h"
 
 #include <fmt/format.h>
@@ -26,10 +26,10 @@ namespace {
 
 struct KnownFunction {
   HostFunction function;
-  std::vector<uint64_t> most; // calls
+  std::vector<uint64_t> most; // number of calls
 };
 
-// Of a program; costs are those of rungs, by their numbers.
+// Properties of a program; costs are indexed by rung number.
 struct Known {
   const ir::Partition& partition;
   std::vector<codegen::CodeLength> chunks;
@@ -39,7 +39,7 @@ struct Known {
   double nsPerStep = 0;
 };
 
-// A chunk's instructions are those of its first rung: it is entered nowhere else.
+// The instructions of a chunk are assigned to its first rung, the only entry.
 std::vector<uint64_t> instructionsOf(const ir::Partition& partition, const std::vector<codegen::CodeLength>& chunks) {
   std::vector<uint64_t> costs(partition.rungCount(), 0);
   for (uint32_t c = 0; c < chunks.size(); ++c) {
@@ -130,13 +130,13 @@ std::vector<Stretch> drawnStretches(const std::vector<uint32_t>& rungs, const ru
   return stretches(numbers);
 }
 
-// The measurement.
+// Measurement of the host functions.
 
 namespace {
 
-constexpr int kSweeps = 8;        // the first ones warm caches and the links between libraries up
+constexpr int kSweeps = 8;        // the first ones warm up caches and the links between libraries
 constexpr uint32_t kBatches = 40; // more calls than queues have room for
-constexpr uint32_t kCalls = 16;   // in a batch, beside which reading the clock is cheap
+constexpr uint32_t kCalls = 16;   // per batch, so that reading the clock costs little in comparison
 
 void call(ir::OpCode operation, rung_ctx& ctx, uint32_t number) {
   const int64_t args[RUNG_MAX_SERVICE_ARGS] = {};
@@ -199,15 +199,15 @@ TaskCost::TaskCost(const ir::Partition& partition, ir::TaskId task, const std::v
   }
 }
 
-// A way without loops is known; what loops may run again is bounded by the budget that ends them, and the rest by
-// all that there is of it, each chunk once: in which order they come is not known.
+// A path without loops is known; for what loops may repeat, the bound is the budget that ends them, and for the rest
+// everything once, because the order of the chunks is not known.
 uint64_t TaskCost::most(std::span<const uint64_t> costs) const {
   if (!hasLoops_) return std::min(ir::longestPath(partition_, task_, costs).cost, allowed(costs, false));
   return std::min(saturatedSum(outsideOfLoops(costs), allowed(costs, true)), allowed(costs, false));
 }
 
-// Of a run that takes whatever way: a chunk takes its weight from the budget, and no more of the cost for that than the
-// dearest one.
+// For a run along any path: a chunk takes its weight from the budget, and its cost per weight is at most that of the
+// most expensive chunk.
 uint64_t TaskCost::allowed(std::span<const uint64_t> costs, bool repeatedOnly) const {
   double dearest = 0;
   for (const ir::Chunk& chunk : partition_.chunks())
@@ -226,8 +226,8 @@ uint64_t TaskCost::outsideOfLoops(std::span<const uint64_t> costs) const {
   return all;
 }
 
-// At most, of a routine that no loop calls; `known`: of others. Calls are nested no deeper than the stack of
-// rung_ctx.
+// The most runs of a routine that no loop calls; `known`: of routines found before. Calls are nested no deeper than the
+// stack of rung_ctx.
 uint64_t TaskCost::runsOf(ir::RoutineId routine, std::vector<std::optional<uint64_t>>& known) const {
   if (const std::optional<uint64_t>& runs = known[routine.index]) return *runs;
   uint64_t runs = routine == partition_.module().tasks[task_.index].entry ? 1 : 0;
@@ -272,7 +272,7 @@ std::string stretchText(const Stretch& s) {
   return s.first == s.last ? std::to_string(s.first) : fmt::format("{}-{}", s.first, s.last);
 }
 
-// Text in lines of a width; those after the first begin with the indent.
+// Text wrapped to the width; lines after the first begin with the indent.
 std::string wrapped(std::string text, const std::string& indent) {
   for (size_t line = 0; text.size() - line > kWidth;) {
     size_t end = text.rfind(' ', line + kWidth);
@@ -294,10 +294,10 @@ std::string rungsText(const std::vector<uint32_t>& rungs, const rung_program& pr
   return text;
 }
 
-// Where the way calls, in the order of the first call of each.
+// The calls on the path, in the order of the first call of each routine.
 std::string calleesText(const ir::RoutineWay& way, const Bounds& bounds, const rung_program& program) {
   std::vector<ir::RoutineId> order;
-  std::map<uint32_t, std::vector<uint32_t>> callers; // rungs
+  std::map<uint32_t, std::vector<uint32_t>> callers; // rung numbers
   for (const ir::RoutineWay::Call& call : way.calls) {
     std::vector<uint32_t>& rungs = callers[call.callee.index];
     if (rungs.empty()) order.push_back(call.callee);
@@ -380,7 +380,7 @@ std::string taskText(const TaskBound& task, const Bounds& bounds, const rung_pro
   return text + seenText(task) + loopsText(task, program) + wayText(task, bounds, program);
 }
 
-// The bound of a slice has each loop once; what the budgets allow is said beside it.
+// The bound of a slice has each loop once; the time that budgets allow is printed beside it.
 std::string sliceText(const Bounds& bounds, const rung_program& program) {
   std::string loops;
   double most = 0;
@@ -454,7 +454,7 @@ Json taskJson(const TaskBound& task, const Bounds& bounds, const rung_program& p
   return json;
 }
 
-// Null if it is not known: a bound that counts each loop once can show that a slice is too long, but not that it fits.
+// Null if unknown: a bound that counts each loop once can show that a slice is too long, but not that it fits.
 Json fitsJson(const runtime::ScanBound& slice) {
   if (slice.loops && slice.fits()) return nullptr;
   return slice.fits();
@@ -470,7 +470,7 @@ std::string jsonOf(const Bounds& bounds, const rung_program& program) {
   if (!bounds.measured.empty()) json["measured_by"] = bounds.measured;
   json["tasks"] = Json::array();
   for (const TaskBound& task : bounds.tasks) json["tasks"].push_back(taskJson(task, bounds, program));
-  // Names come from source files of any encoding: what is not UTF-8 is replaced, not thrown.
+  // Names come from source files of any encoding: invalid UTF-8 is replaced, and does not throw.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -1,4 +1,4 @@
-// The functions of the host that programs call (rung_host_api), and what a call costs on this machine.
+// The host functions that programs call (rung_host_api), and the cost of a call on this computer.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -16,16 +16,16 @@
 namespace rung::report {
 
 struct HostFunction {
-  ir::OpCode operation{}; // that calls it; its name is that of the function
-  double ns = 0;          // of a call
+  ir::OpCode operation{}; // the operation that calls it; the function has the operation's name
+  double ns = 0;          // time of a call
 };
 
-// Of the runtime's queues, empty and full: the dearest of many calls, each with the fastest of its times. What a
-// control does that answers within a request is not in them.
+// Measures the runtime's queues, empty and full: for each function the most expensive of many calls, each with the
+// fastest of its times. A control that answers within a request is not included.
 std::vector<HostFunction> measureHostFunctions();
 
-// The longest that a run of each task may take: in steps, as budgets count them, in machine instructions, in calls of
-// the host's functions, and in time on this machine; and the longest path with its rungs.
+// Bounds of one run of each task: in steps, as budgets count them, in machine instructions, in calls of host functions,
+// and in time on this computer; and the longest path with its rungs.
 
 struct HostCalls {
   HostFunction function;
@@ -33,23 +33,23 @@ struct HostCalls {
   double ns() const { return static_cast<double>(count) * function.ns; }
 };
 
-// What was seen in runs of a task, of a cut one: of its parts.
+// Measured runs of a task; of a partitioned task, of its parts.
 struct Seen {
   uint64_t runs = 0;
-  uint64_t steps = 0; // of the longest
-  double ns = 0;      // of the longest, each with the shortest of its times in several runs of the scenario
+  uint64_t steps = 0; // of the longest run
+  double ns = 0;      // of the longest run; the time of each run is the shortest over several runs of the scenario
 };
 
 struct TaskBound {
   std::string name;
-  uint32_t periodUs = 0; // 0: only when the schedule or the control starts it
-  uint32_t parts = 1;    // of a cut task all that follows is that of the part that has most of it
+  uint32_t periodUs = 0; // 0: started only by the schedule or the control
+  uint32_t parts = 1;    // of a partitioned task, the values below are those of the part with the largest value
   uint32_t budget = 0;
   ir::LongestPath way;
-  uint64_t steps = 0;                   // of the way, or where that is less of the budget, which ends loops
-  std::optional<uint64_t> instructions; // of the program's code, without those of the host's functions
-  std::string noInstructions;           // why there are none
-  std::vector<HostCalls> calls;         // most of each function that a run may call
+  uint64_t steps = 0;                   // of the longest path, at most the budget; with loops the budget
+  std::optional<uint64_t> instructions; // of the program's code, without host functions
+  std::string noInstructions;           // why `instructions` is missing
+  std::vector<HostCalls> calls;         // for each function the most calls of a run
   double codeNs = 0;                    // without process-image copies
   std::optional<Seen> seen;
 
@@ -57,50 +57,51 @@ struct TaskBound {
   double ns() const { return codeNs + callsNs(); }
 };
 
-// Of a program that was compiled.
+// The bounds of a compiled program.
 struct Bounds {
   std::string program;
   std::vector<std::string> routines; // by id
   std::vector<TaskBound> tasks;
   runtime::ScanBound slice; // the bound of a replacement: including process-image copies
-  std::string measured;     // by what Seen was measured; "": nothing was
+  std::string measured;     // how `seen` was measured; "": not measured
 };
 
-// The program's code as the bounds hold for it, once for both: its length, and how fast it is.
+// compileWithLengths: the machine code to which the bounds apply, compiled once both for its lengths and for measuring
+// its speed.
 Result<std::unique_ptr<codegen::JitEngine>> compileWithLengths(const compiler::Compiled& compiled);
 Bounds boundsOf(const compiler::Compiled& compiled, codegen::JitEngine& machineCode);
 
-// Numbers that follow one another.
+// Consecutive numbers.
 struct Stretch {
   uint32_t first = 0;
   uint32_t last = 0;
   bool operator==(const Stretch&) const = default;
 };
 std::vector<Stretch> stretches(const std::vector<uint32_t>& numbers);
-// Of rungs as drawn; what is not drawn is left out.
+// The numbers of the drawn rungs among `rungs`; others are left out.
 std::vector<Stretch> drawnStretches(const std::vector<uint32_t>& rungs, const rung_program& program);
 
 std::string textOf(const Bounds& bounds, const rung_program& program);
-// docs/wcet-format.md
+// The format is described in docs/wcet-format.md.
 std::string jsonOf(const Bounds& bounds, const rung_program& program);
 
-// The most that a run of a task may cost, in anything that rungs cost.
+// The maximum cost of a run of a task, for any cost that rungs have.
 
 class TaskCost {
 public:
-  // `loops`: as LongestPath has them. The cut outlives this.
+  // `loops`: as in LongestPath. The partition must outlive this.
   TaskCost(const ir::Partition& partition, ir::TaskId task, const std::vector<std::vector<uint32_t>>& loops);
 
-  // Whether a run may come to the chunk.
+  // Whether a run may reach the chunk.
   bool reaches(const ir::Chunk& chunk) const { return uses_[chunk.routine.index] != Use::None; }
-  // `costs`: by rung number (ir/analysis/rung_costs.h). Of a cut task: of the part that costs most.
+  // `costs`: by rung number (ir/analysis/rung_costs.h). Of a partitioned task, the cost of its most expensive part.
   uint64_t most(std::span<const uint64_t> costs) const;
 
 private:
   enum class Use : uint8_t {
     None,
-    Once,  // it is called outside of loops only
-    Again, // from within one, too
+    Once,  // called outside of loops only
+    Again, // called in a loop, too
   };
   bool isRepeated(const ir::Chunk& chunk) const;
   uint64_t runsOf(ir::RoutineId routine, std::vector<std::optional<uint64_t>>& known) const;

@@ -1,4 +1,5 @@
-// The steps of runs of tasks, where the interpreter runs them: of whole ones, and of parts of cut tasks.
+// Counts the steps of runs of tasks while the interpreter runs them: of whole tasks, and of the parts of partitioned
+// ones.
 #pragma once
 #include <algorithm>
 #include <cstdint>
@@ -15,12 +16,12 @@ class StepCounter final : public runtime::TaskWatch {
 public:
   struct Count {
     uint64_t runs = 0;
-    uint64_t most = 0; // steps of a run
+    uint64_t most = 0; // most steps of a run
   };
 
   explicit StepCounter(size_t tasks) : counts_(tasks) {}
 
-  // For the interpreter of the program with this partition, which this outlives.
+  // An observer for an interpreter of the program with this partition. The counter must outlive it.
   std::unique_ptr<ir::RungObserver> observer(const ir::Partition& partition) {
     return std::make_unique<Weigher>(partition, steps_);
   }
@@ -44,7 +45,7 @@ private:
     uint64_t& steps_;
   };
 
-  uint64_t steps_ = 0; // of the run
+  uint64_t steps_ = 0; // of the current run
   std::vector<Count> counts_;
 };
 

@@ -1,4 +1,4 @@
-// Warnings that a declaration's comment takes back.
+// Warnings that a declaration's comment suppresses.
 #pragma once
 #include "frontend/sema/analysis.h"
 #include "ir/support/allowance.h"

@@ -18,15 +18,15 @@
 namespace rung::rungc {
 namespace {
 
-constexpr size_t kLongestName = 100; // as the library takes it
+constexpr size_t kLongestName = 100; // the limit of the library
 
 struct BindOptions {
   SourceOptions source;
   std::string header;
   std::string name;
-  std::string members; // a binding file
+  std::string members; // path of a binding file
   std::string include;
-  std::string build; // a folder
+  std::string build; // path of a folder
   std::string out;
   bool makeTemplate = false;
   std::vector<std::string> flags;
@@ -41,7 +41,7 @@ std::optional<std::string> findReader() {
   return std::nullopt;
 }
 
-// What is wrong with the header is on standard error then.
+// Mistakes in the header are printed to standard error.
 std::optional<codegen::HostLayout> readLayout(const BindOptions& options, int& status) {
   const std::optional<std::string> reader = findReader();
   if (!reader) {

@@ -1,4 +1,4 @@
-// rungc build, emit and check: a shared object, any text on the way to it, or the mistakes alone.
+// rungc build, emit and check: a shared object, an intermediate text, or the diagnostics only.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -54,7 +54,7 @@ compiler::CompileRequest requestOf(const BuildOptions& options) {
   return request;
 }
 
-// Compiles with the profile that the options name; rungs that it does not know are reported.
+// Compiles with the profile of the options; rungs without counts in it are reported.
 std::optional<compiler::Compiled> compileWithProfile(SourceManager& sources, const BuildOptions& options,
                                                      compiler::CompileRequest request, int& status) {
   ir::BranchCounts branches;
@@ -75,7 +75,7 @@ std::optional<compiler::Compiled> compileWithProfile(SourceManager& sources, con
   return compiled;
 }
 
-// What the program is compiled for, from the files of rungc bind.
+// Takes the layouts for which the program is compiled from the files of rungc bind.
 bool takeBindings(const BuildOptions& options, compiler::CompileRequest& request, int& status) {
   for (const std::string& path : options.bindings) {
     std::string file;
@@ -132,7 +132,7 @@ int writeListing(const SourceManager& sources, const compiler::Compiled& compile
   return writeFile(compiled.dialect->listing(sources, compiled.files, *compiled.module), name);
 }
 
-// With the size of what a machine gets.
+// With the size of the code for the machine.
 std::string writtenBy(const BuildOptions& options) {
   std::error_code error;
   const auto bytes = std::filesystem::file_size(options.out, error);
@@ -220,7 +220,7 @@ void addEmit(CommandLine& app, int& status) {
   });
 }
 
-// rungc check: reports every mistake of a program, and what looks like one.
+// rungc check: reports every mistake and likely mistake of a program.
 
 void addCheck(CommandLine& app, int& status) {
   Command command = app.add("check", "Report all mistakes in a program");

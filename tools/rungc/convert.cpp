@@ -32,7 +32,7 @@ std::optional<std::string> convert(SourceManager& sources, std::span<const FileI
   const auto form = options.to == "list" ? frontend::network::Form::List : frontend::network::Form::Ladder;
   std::optional<std::string> text =
       frontend::network::convertProgram(frontend::gsk::kLanguage, sources, files, form, diagnostics);
-  const std::string_view encoding = sources.saidEncoding(files[0]); // the result is written in it
+  const std::string_view encoding = sources.saidEncoding(files[0]); // the encoding of the result
   if (text && !encoding.empty()) text->insert(0, fmt::format("; encoding: {}\n", encoding));
   return text;
 }
@@ -58,7 +58,7 @@ int run(const ConvertOptions& options) {
     const scenario::Working working("converting");
     return convert(sources, *files, options, compile, diagnostics);
   }();
-  // With --json the diagnostics go to standard output: after a program there they would corrupt it.
+  // With --json the diagnostics go to standard output, where they would corrupt a program that is printed.
   if (!options.source.json || !text || !options.out.empty()) printDiagnostics(diagnostics, sources, options.source);
   if (!text) return kWrong;
   const auto bytes = sources.bytesOf(files->front(), *text);

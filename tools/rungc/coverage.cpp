@@ -25,7 +25,7 @@ Result<report::CoverageReport> readReport(const std::string& path) {
   return report;
 }
 
-// Every share must reach the least that was asked for.
+// Every share must reach the requested minimum.
 int checkLeast(const report::Totals& totals, double least) {
   int status = kOk;
   const auto check = [&](std::string_view what, const report::Share& share) {
@@ -68,17 +68,17 @@ void addCoverageOptions(Command command, CoverageOptions& options) {
 
 void CoverageRun::observe(scenario::RunOptions& run) {
   run.engines = {compiler::EngineKind::Interp};
-  run.store = nullptr; // an engine of its own for each scenario: threads count apart
+  run.store = nullptr; // a separate engine for each scenario: each thread counts on its own
   run.engine.observer = [this](const compiler::Compiled& compiled) {
     const std::lock_guard lock(mutex_);
     Origin origin{std::string(compiled.dialect->name), compiled.project, compiled.options};
-    origin.options.configPlaces.clear(); // they are places in the sources of this compilation
+    origin.options.configPlaces.clear(); // they are positions in the sources of this compilation
     origins_.try_emplace(compiled.module->files, std::move(origin));
     return collection_.observe(*compiled.module, compiled.marks);
   };
 }
 
-// A page for each program that has run; one that only a former run knows is not drawn.
+// Writes a page for each program that ran; programs known from former runs only are not drawn.
 int CoverageRun::writePages(const report::CoverageReport& report, const std::string& path) const {
   size_t pages = 0;
   for (const report::Program& program : report.programs) {

@@ -1,4 +1,4 @@
-// Coverage of programs by scenarios: the options of `rungc test`, and what becomes of the counts.
+// Coverage of programs by scenarios: the options of `rungc test`, and the evaluation of the counts.
 #pragma once
 #include <map>
 #include <mutex>
@@ -17,35 +17,36 @@ struct CoverageOptions {
   bool all = false;
   std::string json;
   std::string html;
-  std::vector<std::string> former; // JSON of former runs
-  double least = 0;                // percent
-  // Whether any of them was given.
+  std::vector<std::string> former; // JSON files of former runs
+  double least = 0;                // in percent
+  // Whether any of these options was given.
   bool wanted() const { return text || all || !json.empty() || !html.empty() || !former.empty() || least > 0; }
 };
 
 void addCoverageOptions(cli::Command command, CoverageOptions& options);
 
-// How a program was compiled: it is drawn from its sources.
+// How a program was compiled, so that it can be drawn from its sources.
 struct Origin {
   std::string dialect;
-  std::string project; // its name; empty: none
+  std::string project; // name of the project; "": none
   frontend::CompileOptions options;
 };
 
-// Counts what scenarios run, on the interpreter alone.
+// Counts the coverage of scenarios, on the interpreter only.
 class CoverageRun {
 public:
-  // Scenarios that run with these options are counted; they may do so on several threads. They end before this does.
+  // Makes scenarios that run with these options count, on any number of threads. They must end before this object is
+  // destroyed.
   void observe(scenario::RunOptions& run);
-  // Writes what was asked for. Gives the exit status.
+  // Writes the requested output. Returns the exit status.
   int finish(const CoverageOptions& options) const;
 
 private:
   int writePages(const report::CoverageReport& report, const std::string& path) const;
 
   report::Collection collection_;
-  std::mutex mutex_;                                   // of the origins
-  std::map<std::vector<std::string>, Origin> origins_; // by files
+  std::mutex mutex_;                                   // protects origins_
+  std::map<std::vector<std::string>, Origin> origins_; // by the program's files
 };
 
 } // namespace rung::rungc

@@ -1,4 +1,4 @@
-// rungc diff: what has changed between two versions of a program.
+// rungc diff: the changes between two versions of a program.
 #include <algorithm>
 #include <filesystem>
 #include <fmt/format.h>
@@ -20,11 +20,11 @@ namespace fs = std::filesystem;
 struct DiffOptions {
   std::string before;
   std::string after;
-  SourceOptions common; // no files
+  SourceOptions common; // without files
   std::string format = "text";
 };
 
-// One of the two, with the project that it names or belongs to.
+// One of the two versions, with the project that it names or belongs to.
 struct Side {
   std::string name;
   SourceOptions options;
@@ -39,9 +39,9 @@ int takeSide(Side& side, const DiffOptions& options) {
   return takeProject(side.options);
 }
 
-// ---- a copy of one file beside the project that it comes from -----------------------------------------------------
+// ---- a copy of one file compared with its project -----------------------------------------------------------------
 
-// The file of the project that a copy takes the place of: the one that it is compared with, else that of its name.
+// The project file that a copy replaces: the one with which it is compared, otherwise the one of its name.
 std::optional<size_t> placeOf(const std::string& copy, const Side& whole) {
   const std::vector<std::string>& files = whole.options.project->files;
   const auto index = [&](auto isIt) -> std::optional<size_t> {
@@ -55,7 +55,7 @@ std::optional<size_t> placeOf(const std::string& copy, const Side& whole) {
   return index([&](const std::string& file) { return fs::path(file).filename() == fs::path(copy).filename(); });
 }
 
-// A file without a project is a version of the one that it is compared with, and the project around it is that one's.
+// A file without a project is a version of the file with which it is compared, and gets the rest of that project.
 // False: it is not known which file of the project it is.
 bool completeCopy(Side& copy, const Side& whole) {
   const std::optional<size_t> place = placeOf(copy.name, whole);
@@ -93,8 +93,8 @@ uint64_t contentOf(const std::string& path) {
   return hashBytes(std::string(std::istreambuf_iterator<char>(file), {}));
 }
 
-// Numbers by their values, times in microseconds, files beside the project by their names there. What the control reads
-// from a file counts; what the compiler reads is compared as what it has become.
+// Numbers are compared by value, times in microseconds, files beside the project by their names there. The contents of
+// a file count if the control reads it; for files that the compiler reads, its result is compared.
 report::Setting settingOf(const nc::ConfigKey* row, const std::string& value, const SourceOptions& options) {
   report::Setting setting{.text = value, .meaning = value, .content = 0};
   if (row == nullptr) return setting;
@@ -116,11 +116,11 @@ report::Setting settingOf(const nc::ConfigKey* row, const std::string& value, co
   return setting;
 }
 
-// A key that says what holds without it says nothing.
+// A key with its default value counts as absent.
 report::Settings settingsOf(const Side& side) {
   report::Settings settings;
   for (const auto& [key, value] : side.compiled->options.config) {
-    if (key == nc::kEncodingKey.key) continue; // of the files; what they say with it is compared
+    if (key == nc::kEncodingKey.key) continue; // the encoding of the files; their decoded text is compared
     const nc::ConfigKey* row = nc::findConfigKey(side.compiled->dialect->configKeys, key);
     report::Setting setting = settingOf(row, value, side.options);
     const std::string without = row == nullptr ? "" : std::string(row->otherwise);

@@ -1,4 +1,4 @@
-// rungc explain and rungc doc: the reference, an entry or a page at a time.
+// rungc explain and rungc doc: the reference, by entry or page.
 #include "tools/rungc/explain.h"
 
 #include <fmt/format.h>
@@ -19,9 +19,9 @@
 namespace rung::rungc {
 namespace {
 
-constexpr size_t kShown = 40; // of what a search finds
+constexpr size_t kShown = 40; // most results of a search
 
-// Names first, then titles.
+// Matches in names come before those in titles.
 std::vector<compiler::ReferenceEntry> search(const std::vector<compiler::ReferenceEntry>& entries,
                                              const std::string& word) {
   std::vector<compiler::ReferenceEntry> found;
@@ -57,7 +57,7 @@ int reportUnknown(const std::vector<compiler::ReferenceEntry>& entries, const st
   return kWrong;
 }
 
-// What the reference says of the word, and what the project has by that name; else what contains it.
+// Prints the reference entry of the word and the project's name; otherwise entries that contain the word.
 int explainWord(const std::string& word, const std::string& projectFile) {
   std::optional<std::string> text = compiler::explainTopic(word);
   if (!text) text = compiler::explain(word);
@@ -124,7 +124,7 @@ void addDoc(CommandLine& app, int& status) {
 
 namespace {
 
-constexpr size_t kWidth = 100; // of a line, where words allow it
+constexpr size_t kWidth = 100; // of a line, if words allow it
 constexpr size_t kGap = 2;     // before each column
 
 using Row = std::vector<std::string>;
@@ -139,7 +139,7 @@ size_t widthOf(std::string_view text) {
   return width;
 }
 
-// Cells between the bars; \| is a bar in a cell.
+// Cells between the bars; \| is a bar within a cell.
 Row cellsOf(std::string_view line) {
   Row cells;
   std::string cell;
@@ -173,7 +173,7 @@ std::vector<std::string> broken(std::string_view text, size_t width) {
 
 struct Column {
   size_t width = 0;
-  size_t least = 0; // of its longest word
+  size_t least = 0; // width of its longest word
 };
 
 std::vector<Column> columnsOf(const std::vector<Row>& rows) {
@@ -188,7 +188,7 @@ std::vector<Column> columnsOf(const std::vector<Row>& rows) {
   return columns;
 }
 
-// The widest column gives way first.
+// Reduces the widest column first.
 void fit(std::vector<Column>& columns) {
   size_t total = kGap * columns.size();
   for (const Column& column : columns) total += column.width;

@@ -1,4 +1,4 @@
-// Names and operands at a place of the source (see explain.h).
+// Names and operands at a position of the source (see explain.h).
 #include "tools/rungc/explain.h"
 
 #include <algorithm>
@@ -39,11 +39,11 @@ std::string typeText(const rung_symbol& symbol) {
 
 class Explainer {
 public:
-  // `reference`: of a program without errors; it has the names of places and the rungs that use them. Else null.
+  // `reference`: of a program without errors; it has the names of places and the rungs that use them. Otherwise null.
   Explainer(const SourceManager& sources, const Analysis& analysis, const report::CrossReference* reference)
       : sources_(sources), analysis_(analysis), reference_(reference) {}
 
-  // What an operand or a name there is; "" where there is none. `word`: all that is written there without a blank.
+  // The operand or name at the position; "" if there is none. `word`: everything written there up to blanks.
   std::string at(SourcePos at, const std::string& word) {
     if (const frontend::OperandUse* operand = analysis_.operandAt(at)) {
       put(out_, "{}: {} here{}\n", sources_.text(operand->range), nameOf(operand->access),
@@ -61,13 +61,13 @@ public:
     return ended();
   }
 
-  // Of a name that the program declares or uses.
+  // For a name that the program declares or uses.
   std::string named(const Definition& definition) {
     explain(definition);
     return ended();
   }
 
-  // Of an address: its names, and the rungs that use it. "" where the program has neither.
+  // For an address: its names, and the rungs that use it. "" if the program has neither.
   std::string addressed(const std::string& address) {
     if (reference_ == nullptr) return {};
     const auto place = nc::resolve(reference_->program(), address);
@@ -109,7 +109,7 @@ private:
     if (!definition.comment.empty()) put(out_, "  {}\n", compiler::withoutManualLines(definition.comment));
     if (!definition.range.valid()) return;
     put(out_, "  declared at {}\n", placeOf(definition.range));
-    if (reference_ == nullptr || !hasPlace(definition)) // else the rungs that use it are shown
+    if (reference_ == nullptr || !hasPlace(definition)) // otherwise the rungs that use it are shown
       put(out_, "  {}\n", text::trimmed(sources_.lineText(definition.range.begin)));
   }
   static bool hasPlace(const Definition& definition) { return definition.isConstant() || definition.place.bits != 0; }
@@ -141,7 +141,7 @@ private:
   std::string out_;
 };
 
-// The file as the program names it.
+// The file by the name that the program uses.
 std::optional<FileId> fileOf(const SourceManager& sources, const std::string& path) {
   for (uint32_t i = 0; i < sources.fileCount(); ++i) {
     std::error_code none;
@@ -150,10 +150,10 @@ std::optional<FileId> fileOf(const SourceManager& sources, const std::string& pa
   return std::nullopt;
 }
 
-// Bytes of a byte order mark that the line begins with.
+// Length in bytes of a byte order mark at the beginning of the line.
 size_t markLength(std::string_view line) { return line.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0; }
 
-// Columns are characters, offsets bytes. The byte order mark is nothing by itself: the first word is there.
+// Columns count characters, offsets bytes. The position of a byte order mark counts as the first word.
 std::optional<SourcePos> positionOf(const SourceManager& sources, FileId file, const SourcePlace& place) {
   if (place.line == 0 || place.line > sources.lineCount(file)) return std::nullopt;
   const std::string_view line = sources.lineText(file, place.line);
@@ -169,7 +169,7 @@ std::optional<SourcePos> positionOf(const SourceManager& sources, FileId file, c
 
 bool endsWord(char c) { return std::string_view(" \t[](){}|;,\"'").find(c) != std::string_view::npos; }
 
-// Of a line, at one of its characters.
+// The word at one of the characters of a line.
 std::string_view wordAt(std::string_view line, size_t at) {
   size_t begin = at;
   size_t end = at;
@@ -190,7 +190,7 @@ frontend::LineWords wordsOf(const SourceManager& sources, SourcePos at) {
   return words;
 }
 
-// A title, a text, a comment; "" for anything else.
+// The title, text or comment at the position; "" for anything else.
 std::string_view proseAt(const frontend::LineWords& words, SourcePos at) {
   const auto isIn = [&](SourceRange range) { return range.begin <= at && at < range.end; };
   if (words.hasComment && isIn(words.commentRange)) return "a comment";
@@ -212,7 +212,7 @@ bool isNumber(std::string_view word) {
   return text::isDigit(word[first]) || word.substr(0, first).find_first_of("#*") != std::string_view::npos;
 }
 
-// What is written before an operand in its brackets.
+// The marks before an operand in its brackets.
 std::string_view markAt(std::string_view line, size_t at) {
   const size_t open = at == 0 ? std::string_view::npos : line.find_last_of("[(", at);
   if (open == std::string_view::npos) return {};
@@ -232,7 +232,7 @@ std::string_view markAt(std::string_view line, size_t at) {
   }
 }
 
-// Words by their places in a statement: a keyword, what follows it.
+// Explains words by their position in a statement: a keyword, or what follows it.
 std::string explainStatementWord(const frontend::LineWords& words, std::string_view word) {
   if (words.words.empty()) return {};
   const std::string_view first = words.words[0].text;
@@ -258,10 +258,10 @@ std::optional<SourcePlace> sourcePlace(const std::string& word) {
 
 namespace {
 
-// A program as far as it can be understood.
+// A program, as far as it can be analysed in spite of errors.
 class OpenProgram {
 public:
-  // `options` have what takeProject puts there. False, and `status` says why, where it cannot be had.
+  // `options` have been completed by takeProject. On failure false, and `status` says why.
   bool open(const SourceOptions& options, int& status) {
     const auto files = addSources(sources_, options, compile_, status);
     if (!files) return false;
@@ -280,7 +280,7 @@ public:
   const frontend::Dialect& dialect() const { return *dialect_; }
   const Analysis& analysis() const { return program_->analysis(); }
   bool hasErrors() const { return diagnostics_.hasErrors(); }
-  // What is wrong with a word, a line for each error; "" where nothing is.
+  // The errors at a word, a line for each; "" if there are none.
   std::string errorsIn(SourceRange word) const {
     std::string text;
     for (const Diagnostic& one : diagnostics_.reported())
@@ -289,7 +289,7 @@ public:
         put(text, "error here: {} [{}]\n", messageOf(one), diagInfo(one.id).code);
     return text;
   }
-  // In any case where no name is written exactly so; null: none.
+  // Ignores case if no name matches exactly; null: none.
   const Definition* definitionOf(std::string_view name) const {
     const Definition* found = nullptr;
     for (const Definition& definition : analysis().definitions()) {
@@ -310,7 +310,7 @@ private:
   std::optional<report::ModuleReference> reference_;
 };
 
-// What is written at a place.
+// Explains what is written at a position.
 class WordExplainer {
 public:
   WordExplainer(const OpenProgram& program, SourcePos at)
@@ -347,7 +347,7 @@ private:
 
   bool isDrawn() const { return dialect_.findBox != nullptr; }
 
-  // With the operand that the mark belongs to.
+  // With the operand to which the mark belongs.
   std::string marked(std::string_view mark) const {
     const size_t next = line_[offset_] == 'S' || line_[offset_] == 'R' ? line_.find_first_not_of(' ', offset_ + 1)
                                                                        : line_.find_first_not_of("/@%", offset_);
@@ -385,14 +385,14 @@ private:
   const SourcePos at_;
   const frontend::LineWords words_;
   const std::string_view line_;
-  const size_t offset_; // in the line
+  const size_t offset_; // offset in the line
 };
 
 } // namespace
 
 namespace {
 
-// The program of the project that a file lies in, where the program includes the file; else null.
+// The program of the project that contains the file, if the program includes the file; otherwise null.
 std::unique_ptr<OpenProgram> includingProgram(const std::string& file) {
   const auto projectFile = compiler::findUpwards(std::filesystem::path(file).parent_path().string());
   if (!projectFile) return nullptr;

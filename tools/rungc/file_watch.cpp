@@ -28,7 +28,7 @@ std::string folderOf(const std::string& file) {
 
 std::string normal(const fs::path& path) { return path.lexically_normal().string(); }
 
-// One that stays pending would end the program once it is unblocked.
+// A signal that stays pending would end the program once it is unblocked.
 void takeSignal(int signals) {
   signalfd_siginfo taken{};
   while (read(signals, &taken, sizeof taken) < 0 && errno == EINTR) {
@@ -57,7 +57,7 @@ Result<FileWatch> FileWatch::open(const std::vector<std::string>& files, const s
   for (const std::string& file : files) {
     watch.files_.insert(normal(file));
     std::error_code none;
-    if (!fs::is_directory(folderOf(file), none)) continue; // a file that a scenario names wrongly
+    if (!fs::is_directory(folderOf(file), none)) continue; // a wrong file name in a scenario
     if (Result<void> added = watch.add(folderOf(file), false); !added.ok()) return added.failure();
   }
   watch.changedBefore_ = watch.changedSince(since);
@@ -80,7 +80,7 @@ FileWatch::~FileWatch() {
 Result<void> FileWatch::add(const std::string& folder, bool all) {
   const int watch = inotify_add_watch(notify_, folder.c_str(), kChanges);
   if (watch < 0) return failure(fmt::format("cannot watch '{}': {}", folder, std::strerror(errno)));
-  // The same folder gives the same watch.
+  // The same folder gets the same watch.
   const auto known = std::ranges::find(folders_, watch, &Folder::watch);
   if (known == folders_.end())
     folders_.push_back({watch, folder, all});
@@ -97,7 +97,7 @@ std::string FileWatch::changedSince(fs::file_time_type since) const {
   return {};
 }
 
-// Reads what is there; gives the last file that counts, or "".
+// Reads the pending events; returns the last changed file that counts, or "".
 std::string FileWatch::takeChange() {
   alignas(inotify_event) char buffer[16 * 1024];
   std::string changed;

@@ -1,4 +1,4 @@
-// Waits until a file changes, however an editor writes it.
+// Waits until a file changes, whichever way an editor writes it.
 #pragma once
 #include <filesystem>
 #include <optional>
@@ -10,24 +10,25 @@
 
 namespace rung::rungc {
 
-// Folders are watched and not files, for an editor may put a new file in the place of the old one.
+// Watches folders and not files, because an editor may replace a file by a new one.
 class FileWatch {
 public:
-  // Changes of these files since then, and from now on of files with this ending in these folders.
+  // Watches for changes of these files after `since`, and from now on of files with this ending in these folders.
   static Result<FileWatch> open(const std::vector<std::string>& files, const std::vector<std::string>& folders,
                                 std::string ending, std::filesystem::file_time_type since);
   FileWatch(FileWatch&& other) noexcept;
   FileWatch& operator=(FileWatch&&) = delete;
   ~FileWatch();
 
-  // The file that has changed, once nothing more changes for a moment; nothing after Ctrl-C or SIGTERM.
+  // Waits; returns the file that has changed, once no more changes follow for a moment, or nothing after Ctrl-C or
+  // SIGTERM.
   std::optional<std::string> wait();
 
 private:
   struct Folder {
     int watch;
     std::string path;
-    bool all; // every file with the ending counts
+    bool all; // whether every file with the ending counts
   };
   FileWatch(int notify, int signals, std::string ending)
       : notify_(notify), signals_(signals), ending_(std::move(ending)) {}
@@ -36,11 +37,11 @@ private:
   std::string takeChange();
 
   int notify_ = -1;
-  int signals_ = -1; // SIGINT and SIGTERM, blocked while this lives
+  int signals_ = -1; // descriptor for SIGINT and SIGTERM, which are blocked while this object lives
   std::string ending_;
   std::vector<Folder> folders_;
   std::set<std::string> files_;
-  std::string changedBefore_; // between `since` and the opening
+  std::string changedBefore_; // a file that changed between `since` and open()
 };
 
 } // namespace rung::rungc

@@ -1,4 +1,4 @@
-// rungc format: source files in the one style of their language.
+// rungc format: formats source files in the style of their language.
 #include <algorithm>
 #include <filesystem>
 #include <fmt/format.h>
@@ -36,7 +36,7 @@ std::map<std::string, std::string> configOf(const compiler::Project& project) {
   return config;
 }
 
-// Of the project in whose folder the file is; nothing where there is none that can be read.
+// The configuration of the project whose folder contains the file; empty if there is no readable one.
 std::map<std::string, std::string> configFor(const std::string& name) {
   const auto found = compiler::findUpwards(fs::path(name).parent_path().string());
   SourceManager sources;
@@ -45,7 +45,7 @@ std::map<std::string, std::string> configFor(const std::string& name) {
   return project ? configOf(*project) : std::map<std::string, std::string>();
 }
 
-// What the files of a project include from its folder; what lies elsewhere may be other people's.
+// Files in the project's folder that its files include; files elsewhere may belong to other projects.
 std::vector<std::string> includedFiles(const compiler::Project& project) {
   const frontend::Dialect& dialect = *frontend::findDialect(project.dialect);
   SourceManager sources;
@@ -56,7 +56,7 @@ std::vector<std::string> includedFiles(const compiler::Project& project) {
   return names;
 }
 
-// The files of a project that is named, or found where nothing is; else those that are named, and no others.
+// Takes all files of a project if one is named, or if no file is named; otherwise only the named files.
 int takeFiles(SourceOptions& options) {
   const std::vector<std::string>& files = options.files;
   if (!files.empty() && !(files.size() == 1 && isProject(files[0]))) return kOk;
@@ -69,7 +69,8 @@ int takeFiles(SourceOptions& options) {
   return status;
 }
 
-// Of a file that does not say its dialect, such as one that others include: that of the project in whose folder it is.
+// The dialect of a file that does not determine it, such as an included one: that of the project whose folder contains
+// it.
 std::string dialectOf(const SourceManager& sources, FileId file, const SourceOptions& options, int& status) {
   if (!options.dialect.empty() || frontend::dialectOf(sources, file) != nullptr) return options.dialect;
   const auto found = compiler::findUpwards(fs::path(sources.name(file)).parent_path().string());
@@ -77,7 +78,7 @@ std::string dialectOf(const SourceManager& sources, FileId file, const SourceOpt
   return project ? project->dialect : "";
 }
 
-// Nothing where the file has mistakes, which are printed.
+// Nothing if the file has mistakes, which are printed.
 std::optional<std::string> formatted(SourceManager& sources, FileId file, const SourceOptions& options, int& status) {
   const std::string name = dialectOf(sources, file, options, status);
   if (status != kOk) return std::nullopt;
@@ -90,7 +91,7 @@ std::optional<std::string> formatted(SourceManager& sources, FileId file, const 
   return std::nullopt;
 }
 
-// The file keeps its mode, and is never open to more people than it was.
+// The file keeps its permissions, and never has wider ones meanwhile.
 int replace(const std::string& name, const std::string& text, const SourceOptions& options) {
   std::error_code error;
   const fs::perms mode = fs::status(name, error).permissions() & fs::perms::all;
@@ -119,7 +120,7 @@ int formatFile(const std::string& name, const FormatOptions& options) {
   return changes ? replace(name, *bytes, options.source) : kOk;
 }
 
-// All of them, whatever is wrong with one.
+// Formats all files, even if one has mistakes.
 int run(FormatOptions options) {
   int status = takeFiles(options.source);
   if (status != kOk) return status;

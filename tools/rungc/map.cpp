@@ -1,4 +1,4 @@
-// rungc map: a first mapping file for a program, and the mistakes of one that is there.
+// rungc map: makes a first mapping file for a program, and checks an existing one.
 #include <fmt/format.h>
 #include <memory>
 #include <optional>
@@ -21,7 +21,7 @@ namespace {
 struct MapOptions {
   SourceOptions source;
   bool makeTemplate = false;
-  std::string check; // a mapping file
+  std::string check; // path of a mapping file
   std::string out;
 };
 
@@ -45,7 +45,7 @@ int writeTemplate(const MapOptions& options, const OpenedProgram& program) {
   return sayWrote(writeFile(text, options.out), options.out, options.source);
 }
 
-// What rungs write is not an input: a pin's value would last until they do. `map`: bound as in `binding`.
+// Variables that rungs write are not inputs: a pin's value would last only until they do. `map`: bound as in `binding`.
 void checkDriven(const host::File& map, const host::Binding& binding, rung_instance* instance,
                  const OpenedProgram& program, std::vector<std::string>& errors) {
   const rung_program& tables = program.image->program();
@@ -74,7 +74,7 @@ int checkMap(const MapOptions& options, const OpenedProgram& program) {
   if (map.paths.empty()) return environmentError(errors.front());
   const Instance instance(*program.image);
   const host::Binding binding = host::bindMap(map, instance.handle(), program.image->program(), errors);
-  if (map.connections.empty()) host::checkPinNames(map, errors); // else it is not for LinuxCNC
+  if (map.connections.empty()) host::checkPinNames(map, errors); // otherwise it is not for LinuxCNC
   if (program.compiled) checkDriven(map, binding, instance.handle(), program, errors);
   host::defineMessages(map, instance.handle(), errors);
   for (const std::string& warning : binding.warnings) fmt::print(stderr, "{}\n", warning);

@@ -1,4 +1,4 @@
-// rungc new: a small complete project.
+// rungc new: makes a small complete project.
 #include "tools/rungc/new.h"
 
 #include <fmt/format.h>
@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Where the file goes in a project of this dialect; empty for one of another dialect.
+// The path of the file in a project of this dialect; empty for a file of another dialect.
 std::string placeOf(const text::EmbeddedFile& file, std::string_view dialect) {
   if (file.name == "gitignore") return ".gitignore";
   const size_t slash = file.name.find('/');
@@ -30,8 +30,8 @@ bool writeTemplate(const fs::path& path, const std::string& text) {
   return file.good();
 }
 
-// Writes program, scenario, project file and .gitignore of this dialect, with the name of the project in them, into a
-// folder that is empty or does not exist; gives the files. Fails with a text for the user.
+// Writes program, scenario, project file and .gitignore of this dialect, with the name of the project in them, to a
+// folder that is empty or does not exist; returns the files. The error is a text for the user.
 Result<std::vector<std::string>> makeProject(std::string_view dialect, const std::string& folder) {
   std::error_code error;
   const fs::path root = fs::path(folder).lexically_normal();

@@ -1,4 +1,4 @@
-// A program as a host would see it, for commands that look its names up.
+// A program as a host sees it, for commands that look its names up.
 #pragma once
 #include <memory>
 #include <optional>
@@ -10,14 +10,14 @@
 
 namespace rung::rungc {
 
-// What is compiled ends after the image.
+// The image must be destroyed before the program that was compiled for it.
 struct OpenedProgram {
-  std::optional<compiler::Compiled> compiled; // nothing of a shared object
+  std::optional<compiler::Compiled> compiled; // nothing for a shared object
   std::unique_ptr<runtime::Engine> engine;
   std::unique_ptr<Image> image; // never null
 };
 
-// Of sources, or of a shared object; nothing, and `status` says why, when it cannot be had.
+// From sources, or from a shared object; on failure nothing, and `status` says why.
 std::optional<OpenedProgram> openProgram(const SourceOptions& source, int& status);
 
 } // namespace rung::rungc

@@ -1,4 +1,4 @@
-// rungc opt: passes of the optimiser by name, over a program's IR or a module as text.
+// rungc opt: runs passes of the optimiser by name, on a program's IR or a module as text.
 #include <algorithm>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -27,7 +27,7 @@ constexpr std::string_view kAll = "all";
 
 struct OptOptions {
   SourceOptions source;
-  std::string passes; // joined by commas; empty: those that `build` runs
+  std::string passes; // joined by commas; empty: the passes of `build`
   std::vector<std::string> printAfter;
   bool statistics = false;
   bool verifyEach = false;
@@ -40,7 +40,7 @@ std::string knownPasses() {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-// Nothing, and `status` says why, where a name is not one of a pass.
+// On failure nothing, and `status` says why: a name is not that of a pass.
 std::vector<const ir::Pass*> passesOf(const OptOptions& options, int& status) {
   std::vector<const ir::Pass*> passes;
   const auto add = [&](std::string_view name) {
@@ -91,7 +91,7 @@ std::unique_ptr<ir::Module> moduleInFile(const std::string& file, int& status) {
   return std::make_unique<ir::Module>(std::move(*parsed.module));
 }
 
-// As the front end has made it, before the pipeline.
+// The module as the front end made it, before the pipeline.
 std::unique_ptr<ir::Module> moduleOfSources(const SourceOptions& options, int& status) {
   SourceManager sources;
   compiler::CompileRequest request;
@@ -103,7 +103,7 @@ std::unique_ptr<ir::Module> moduleOfSources(const SourceOptions& options, int& s
 
 bool isModuleText(const std::string& file) { return file.ends_with(kEnding); }
 
-// A module as text alone, or sources. On failure `status` says why.
+// From a single module text, or from sources. On failure `status` says why.
 std::unique_ptr<ir::Module> moduleOf(const SourceOptions& options, int& status) {
   if (std::ranges::none_of(options.files, isModuleText)) return moduleOfSources(options, status);
   if (options.files.size() == 1) return moduleInFile(options.files[0], status);
@@ -112,11 +112,11 @@ std::unique_ptr<ir::Module> moduleOf(const SourceOptions& options, int& status) 
   return nullptr;
 }
 
-// What one run of a pass has done.
+// Statistics of one run of a pass.
 struct PassCount {
   std::string_view name;
-  size_t operations = 0; // afterwards
-  size_t rungs = 0;      // that it has changed or added
+  size_t operations = 0; // number after the pass
+  size_t rungs = 0;      // number of changed or added rungs
 };
 
 size_t operationsOf(const ir::Module& module) {
@@ -130,7 +130,7 @@ bool hasSameCode(const ir::Rung& a, const ir::Rung& b) {
   return a.ops == b.ops && a.args == b.args && a.values == b.values && a.transfer == b.transfer;
 }
 
-// By position; rungs that a pass adds or removes count where they are.
+// Compares by position; added or removed rungs count at theirs.
 size_t changedRungs(const ir::Module& before, const ir::Module& after) {
   size_t changed = 0;
   const size_t routines = std::max(before.routines.size(), after.routines.size());
@@ -146,7 +146,7 @@ size_t changedRungs(const ir::Module& before, const ir::Module& after) {
   return changed;
 }
 
-// All of the text but the routines, a line each.
+// All text of the module except the routines, line by line.
 std::set<std::string> declarationsOf(const ir::Module& module) {
   std::set<std::string> lines;
   bool declares = true;
@@ -176,7 +176,7 @@ public:
         declared_(options.printAfter.empty() ? std::set<std::string>() : declarationsOf(module)),
         runner_(module, [this](const ir::Pass& pass, const ir::Module&) { ran(pass); }) {}
 
-  // Gives the exit status.
+  // Returns the exit status.
   int run(std::span<const ir::Pass* const> passes) {
     for (const ir::Pass* pass : passes) {
       runner_.run(*pass);
@@ -209,7 +209,7 @@ private:
     if (!errors.empty()) error_ = ir::render(module_, errors);
   }
 
-  // The rungs, and the declarations that the pass has changed.
+  // Prints the rungs, and the declarations that the pass has changed.
   void print(const ir::Pass& pass) {
     std::set<std::string> before = std::exchange(declared_, declarationsOf(module_));
     if (!prints(pass)) return;
@@ -225,9 +225,9 @@ private:
 
   ir::Module& module_;
   const OptOptions& options_;
-  ir::Module before_; // the last pass, for the statistics
+  ir::Module before_; // before the last pass, for statistics
   size_t first_;
-  std::set<std::string> declared_; // after the last pass, where passes are printed
+  std::set<std::string> declared_; // after the last pass, if passes are printed
   ir::PassRunner runner_;
   std::vector<PassCount> counts_;
   std::string error_;

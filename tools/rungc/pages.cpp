@@ -1,4 +1,4 @@
-// Pages with what runs have shown (see pages.h).
+// Pages with results of runs (see pages.h).
 #include "tools/rungc/pages.h"
 
 #include <fmt/format.h>
@@ -17,8 +17,8 @@
 namespace rung::rungc {
 namespace {
 
-// A program's page with what has been found out about it: on its drawing, or on its source where its dialect has none.
-// The program is read again from its files. `project`: the title; empty: the files are. Fails when a file cannot be
+// A program's page with the results of the overlay: on its drawing, or on its source if its dialect has no drawings.
+// The program is read again from its files. `project`: the title; "": the names of the files. Fails if a file cannot be
 // read, or the program has errors now.
 Result<std::string> pageWith(const view::Overlay& overlay, const std::vector<std::string>& files,
                              const frontend::Dialect& dialect, const frontend::CompileOptions& options,
@@ -75,7 +75,7 @@ view::Overlay overlayOf(const report::Profile& profile) {
   return overlay;
 }
 
-// Coverage of a program in the terms of its drawing.
+// Coverage of a program in terms of its drawing.
 
 using Element = view::ElementOverlay;
 
@@ -108,7 +108,7 @@ private:
     found->second.place = {rung_.file, part.line, part.column};
     return {found->second, isNew};
   }
-  // Of a box with several pins the first gives its state, the others are in its detail.
+  // For a box with several pins the first pin gives its state, the others are in its detail.
   void add(const report::Output& output) {
     const auto [element, isNew] = at(output);
     if (!isNew) return say(element, named(output.text, report::missingOf(output)));

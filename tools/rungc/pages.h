@@ -1,5 +1,6 @@
-// Pages of a program with what runs have shown: on its drawing; where its dialect has none, as a table of its rungs.
-// The program is read again from its files; both fail when it cannot be read any more, or has errors now.
+// Pages of a program with the results of runs: on its drawing, or for a dialect without drawings as a table of its
+// rungs. The program is read again from its files; both functions fail if it cannot be read any more, or has errors
+// now.
 #pragma once
 #include <string>
 
@@ -10,9 +11,9 @@
 
 namespace rung::rungc {
 
-// Of the program that the request's scenarios run.
+// The page of the program that the request's scenarios run.
 Result<std::string> profilePage(const report::Profile& profile, const scenario::ProfileRequest& request);
-// `project`: the title; empty: the files are.
+// `project`: the title; "": the names of the files.
 Result<std::string> coveragePage(const report::Program& program, const frontend::Dialect& dialect,
                                  const frontend::CompileOptions& options, const std::string& project);
 

@@ -1,4 +1,4 @@
-// rungc profile: what every rung and every scan costs while scenarios drive the program.
+// rungc profile: measures the cost of every rung and every scan while scenarios drive the program.
 #include <cstdint>
 #include <filesystem>
 #include <fmt/format.h>
@@ -37,7 +37,7 @@ bool isScenario(const std::string& name) {
   return name.ends_with(".scn") || std::filesystem::is_directory(name, none);
 }
 
-// Gives the exit status.
+// Returns the exit status.
 int sortNames(const ProfileOptions& options, scenario::ProfileRequest& request) {
   std::vector<std::string> scenarios;
   for (const std::vector<std::string>* names : {&options.scenarios, &options.files})
@@ -66,7 +66,7 @@ Result<report::Baseline> openBaseline(const std::string& path) {
 int runProfile(const ProfileOptions& options) {
   scenario::ProfileRequest request;
   const auto engine = compiler::engineFromName(options.engine);
-  if (!engine || *engine == compiler::EngineKind::Tiered) // whose times are of two engines
+  if (!engine || *engine == compiler::EngineKind::Tiered) // its times would be those of two engines
     return usageError("--engine takes one of interp, cpp, llvm and jit");
   request.engine = *engine;
   request.order = options.by == "time" ? report::Order::Time : report::Order::Operations;
@@ -74,7 +74,7 @@ int runProfile(const ProfileOptions& options) {
   if (const int status = sortNames(options, request); status != kOk) return status;
   std::optional<report::Comparison> comparison;
   std::optional<report::Baseline> baseline;
-  if (!options.baseline.empty()) { // read first: a wrong file should not cost the measurements
+  if (!options.baseline.empty()) { // read first: a wrong file must not waste the measurements
     Result<report::Baseline> read = openBaseline(options.baseline);
     if (!read.ok()) return environmentError(read.error());
     baseline = std::move(read).value();

@@ -8,7 +8,7 @@
 namespace rung::rungc {
 namespace {
 
-// Once when saving begins to fail, and once when it works again; `fails` is what was reported last.
+// Reports when saving begins to fail, and when it works again; `fails` is what was last reported.
 void reportChange(bool failsNow, const std::string& problem, const std::string& name, bool& fails,
                   const RetainedFiles::Report& report) {
   if (failsNow == fails) return;

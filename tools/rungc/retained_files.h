@@ -1,4 +1,4 @@
-// `rungc run --retain FILE`: what a program and its control keep through power-off, on disk.
+// `rungc run --retain FILE`: stores the retained memory of a program and its control on disk.
 #pragma once
 #include <functional>
 #include <string>
@@ -8,19 +8,20 @@
 
 namespace rung::rungc {
 
-// The program's retained memory, which the library keeps, and the tables of the NC beside it: taken before the start,
+// The program's retained memory, which the library stores, and the tables of the NC beside it: loaded before the start,
 // saved during the run and at its end.
 class RetainedFiles final : public scenario::Observer {
 public:
-  using Report = std::function<void(const std::string& line)>; // for the user
+  using Report = std::function<void(const std::string& line)>; // prints a line for the user
 
-  // The session is configured and has not started; it outlives this. What the files hold is reported at its warm start.
+  // The session is configured and has not started; it must outlive this object. The contents of the files are reported
+  // at the warm start.
   RetainedFiles(scenario::Session& session, const std::string& file, Report report);
 
-  // The tables: "", or why their files cannot be used. What is wrong with their contents is reported.
+  // Loads the tables. "" or why their files cannot be used; mistakes in their contents are reported.
   std::string load();
   void scanned(const scenario::Session& session) override;
-  // After the last scan; "" or what could not be written.
+  // Saves after the last scan. "" or what could not be written.
   std::string finish();
 
 private:
@@ -30,7 +31,7 @@ private:
   std::string file_;
   sim::RetainedTables tables_;
   Report report_;
-  bool memoryFails_ = false; // and that has been reported
+  bool memoryFails_ = false; // saving failed, and that has been reported
   bool tablesFail_ = false;
 };
 

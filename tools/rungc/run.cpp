@@ -1,5 +1,5 @@
-// rungc run: runs a program, from source or from a shared object, on the virtual or the real clock; a person can set
-// its inputs, drive it with a scenario, or type at it.
+// rungc run: runs a program, from source or from a shared object, on the virtual or the real clock; the user can set
+// its inputs, drive it with a scenario, or enter commands.
 #include <algorithm>
 #include <csignal>
 #include <cstdint>
@@ -29,8 +29,8 @@ namespace {
 struct RunOptions {
   SourceOptions source;
   ConfigPairs config;            // of the source options
-  std::string engine;            // "": tiered, for a debugger jit
-  std::optional<uint64_t> scans; // one, where nothing else drives the program
+  std::string engine;            // "": tiered, or jit for a debugger
+  std::optional<uint64_t> scans; // default: one, if nothing else drives the program
   std::string duration;
   int64_t forUs = 0;
   std::vector<std::string> watch;
@@ -40,7 +40,7 @@ struct RunOptions {
   std::string trace;
   bool prompt = false;
   bool realtime = false;
-  runtime::RealTimeOptions thread; // of a real-time run
+  runtime::RealTimeOptions thread; // for a real-time run
   bool debugger = false;
   bool unsealed = false;
   std::string level = "2";
@@ -60,7 +60,7 @@ std::string longText(int64_t us) {
   return text + fmt::format("{:.3f} s", static_cast<double>(us % kMinute) / 1e6);
 }
 
-scenario::Signal gSignal = 0; // of SIGINT and SIGTERM: the only thing a signal handler may touch
+scenario::Signal gSignal = 0; // SIGINT and SIGTERM: the only variable that the signal handler writes
 
 void catchSignals() {
   struct sigaction action{};
@@ -69,18 +69,18 @@ void catchSignals() {
   sigaction(SIGTERM, &action, nullptr);
 }
 
-// What is run.
+// The program that is run.
 struct Program {
-  std::optional<compiler::Compiled> compiled; // nothing of a shared object
-  std::unique_ptr<runtime::Engine> engine;    // ends before it
-  const runtime::SoEngine* object = nullptr;  // the same, of a shared object
-  std::optional<compiler::Compiled> carried;  // that of a shared object, as far as it carries that, once it was wanted
+  std::optional<compiler::Compiled> compiled; // nothing for a shared object
+  std::unique_ptr<runtime::Engine> engine;    // destroyed before `compiled`
+  const runtime::SoEngine* object = nullptr;  // the same engine, if it is a shared object
+  std::optional<compiler::Compiled> carried;  // of a shared object, its embedded IR, loaded on first use
 
   const ir::Uses* uses() const { return compiled ? compiled->uses.get() : nullptr; }
   Result<const compiler::Compiled*> wanted();
 };
 
-// All of the file that it was loaded from.
+// The whole file from which it was loaded.
 std::string fileOf(const runtime::SoEngine& object) {
   constexpr size_t kPiece = size_t{1} << 20;
   std::string bytes;
@@ -113,7 +113,7 @@ std::optional<Program> makeProgram(const RunOptions& options, const SourceOption
 // One run of a program, from its start to the end that the options set.
 class Run {
 public:
-  // The options outlive the run.
+  // The options must outlive the run.
   Run(const RunOptions& options, Program program)
       : options_(options), session_("", options.realtime ? sim::Clock::Machine : sim::Clock::Virtual),
         recording_(startOf(options, program.compiled.has_value())) {
@@ -148,7 +148,7 @@ private:
 
   // ---- start ----
 
-  // The keys of --config that the compiler does not read are the NC's.
+  // Keys of --config that the compiler does not read are passed to the NC.
   std::string configure() {
     const frontend::Dialect* dialect = frontend::findDialect(session_.instance().program().dialect);
     for (const auto& [key, value] : recording_.start().config) {
@@ -177,7 +177,7 @@ private:
     const std::vector<sim::NcProblem> problems = session_.start(kind);
     for (const sim::NcProblem& problem : problems) warn_(problem.text);
     return problems.empty() ? observe() : int{kUsage};
-  } catch (const rung::Error& error) { // the retained memory
+  } catch (const rung::Error& error) { // from loading the retained memory
     return environmentError(error.what());
   }
 
@@ -207,7 +207,7 @@ private:
 
   // ---- the run ----
 
-  // Inputs, then the scenario, then what --scans and --for ask for, then the person.
+  // Executes inputs, then the scenario, then --scans and --for, then the prompt.
   int drive() {
     catchSignals();
     scenario::Console console(session_, watch_, recording_, *explainer_, print_);
@@ -229,7 +229,7 @@ private:
     return kOk;
   }
 
-  // The statement that did it. A value that is not a number may be a text, which here needs no quotes.
+  // The executed statement. A value that is not a number may be a text, which needs no quotes here.
   Result<std::string> setInput(const std::string& pair) {
     const size_t equals = pair.find('=');
     if (equals == std::string::npos || equals == 0) return failure("expected NAME=VALUE");
@@ -287,7 +287,7 @@ private:
     return kOk;
   }
 
-  // The program of a replace or shadow statement, with the configuration of the running one.
+  // Compiles the program of a replace or shadow statement, with the configuration of the running one.
   Result<scenario::NextProgram> next(const scenario::Statement& s) {
     SourceOptions source = options_.source;
     source.files = scenario::programPaths(s);
@@ -302,18 +302,18 @@ private:
     return scenario::NextProgram{{next.engine.get()}, next.uses(), [&next] { return next.wanted(); }};
   }
 
-  // What the sources say of their dialect.
+  // Checks the dialect that the sources declare.
   std::string dialectProblem(const std::vector<std::string>& files) const {
-    if (isSharedObject(files)) return {}; // the session looks at its tables
+    if (isSharedObject(files)) return {}; // the session checks its tables
     SourceManager sources;
     const Result<std::vector<FileId>> added = compiler::addFiles(sources, files, {});
     if (!added.ok()) return added.error();
     return scenario::dialectProblem(sources, added.value().front(), session_.instance().program().dialect);
   }
 
-  // After every scan.
+  // Called after every scan.
   bool interrupted() {
-    constexpr uint64_t kScansBetween = 1024; // the clock costs as much as a small scan
+    constexpr uint64_t kScansBetween = 1024; // reading the clock costs as much as a small scan
     if (!options_.source.quiet && session_.scans() % kScansBetween == 0)
       progress_.show(fmt::format("{}, running for {}", scenario::scanText(session_.scans(), session_.nowUs()),
                                  shownSeconds(progress_.seconds())));
@@ -333,7 +333,7 @@ private:
     }
     for (const Program& program : programs_)
       if (const std::string trouble = compiler::codeTrouble(*program.engine); !trouble.empty()) warn_(trouble);
-    // What cannot be written is worse: the run may have been right.
+    // Takes precedence over other failures: the run may have been right.
     if (retained_)
       if (const std::string error = retained_->finish(); !error.empty()) status = environmentError(error);
     if (trace_)
@@ -342,10 +342,10 @@ private:
   }
 
   const RunOptions& options_;
-  std::list<Program> programs_; // that ran: the session may hold on to any
+  std::list<Program> programs_; // programs that ran: the session may still refer to any of them
   scenario::Session session_;
   scenario::Recording recording_;
-  std::FILE* out_ = options_.source.json ? stderr : stdout; // with --json nothing but that is on standard output
+  std::FILE* out_ = options_.source.json ? stderr : stdout; // with --json only JSON is printed to standard output
   scenario::Progress progress_{stderr};
   scenario::Print print_ = [this](const std::string& line) {
     progress_.clear();
@@ -359,7 +359,7 @@ private:
   scenario::Watch watch_{print_};
   std::unique_ptr<RetainedFiles> retained_;
   std::unique_ptr<scenario::Trace> trace_;
-  std::unique_ptr<scenario::Explainer> explainer_; // once the session has started
+  std::unique_ptr<scenario::Explainer> explainer_; // set once the session has started
 };
 
 std::optional<Program> openSharedObject(const RunOptions& options, const std::string& file, int& status) {
@@ -385,7 +385,7 @@ std::optional<Program> compileProgram(const RunOptions& options, const SourceOpt
   }
   SourceManager sources;
   compiler::CompileRequest request;
-  request.keepBuilt = options.prompt || !options.scenarioFile.empty(); // a prompt or a scenario may force cells
+  request.keepBuilt = options.prompt || !options.scenarioFile.empty(); // for forces by the prompt or a scenario
   if (options.scenario.periodUs > 0) request.options.config["period_us"] = std::to_string(options.scenario.periodUs);
   Program program;
   program.compiled = compileChecked(sources, source, request, status);
@@ -472,7 +472,7 @@ void addRun(CommandLine& app, int& status) {
       "Keep the retained memory in FILE.a and FILE.b: loaded at the start, saved during the run and at its end");
   command.option("--cache", options->cache, "Folder for compiled code, so that an unchanged program starts faster");
   addLevelOption(command, options->level);
-  // The scenario may name the program, so it is read before the program is looked for.
+  // The scenario may name the program, so it is read before the program is looked up.
   command.onParsed([options] {
     int wrong = kOk;
     if (!options->scenarioFile.empty())

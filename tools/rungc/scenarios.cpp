@@ -1,4 +1,4 @@
-// What the commands that run scenarios share.
+// Shared by the commands that run scenarios.
 #include "tools/rungc/scenarios.h"
 
 #include <fmt/format.h>
@@ -71,7 +71,7 @@ void printResult(const TestCase& test, bool color) {
                test.path, painted("warning", "1;35"));
 }
 
-// Which scenarios a command runs.
+// Selects the scenarios of a command.
 
 namespace {
 
@@ -144,11 +144,12 @@ std::vector<std::string> filtered(const std::vector<std::string>& files, const s
   return out;
 }
 
-// JUnit XML by pugixml.
+// JUnit XML, written with pugixml.
 
 namespace {
 
-// XML 1.0 has neither control characters nor U+FFFE and U+FFFF; texts of scenarios and programs may hold anything.
+// XML 1.0 allows neither control characters nor U+FFFE and U+FFFF; texts of scenarios and programs may contain
+// anything.
 std::string inXml(std::string_view text) {
   std::string out;
   for (size_t at = 0; at < text.size();) {
@@ -207,7 +208,7 @@ std::string junitXml(const std::vector<TestCase>& tests) {
   return std::move(out).str();
 }
 
-// The scenario of a run.
+// Reads the scenario of a run.
 
 namespace {
 
@@ -219,7 +220,7 @@ std::string inFolderOf(const std::string& file, const std::string& name) {
   return (fs::path(file).parent_path() / name).lexically_normal().string();
 }
 
-// Files that the control reads lie relative to the scenario.
+// Files that the control reads are relative to the scenario.
 std::string configOf(const Statement& s) {
   for (const frontend::Dialect* dialect : frontend::allDialects()) {
     const nc::ConfigKey* row = nc::findConfigKey(dialect->configKeys, s.name);
@@ -229,7 +230,7 @@ std::string configOf(const Statement& s) {
   return s.name + "=" + s.value.text;
 }
 
-// A scenario without a program runs that of the project that it lies in.
+// A scenario without a program runs that of the project that contains it.
 int findProgram(const std::string& path, const std::vector<std::string>& programs, SourceOptions& options) {
   if (!options.files.empty() || !options.projectFile.empty()) return kOk;
   if (!programs.empty()) {
@@ -266,7 +267,7 @@ int readRunScenario(const std::string& path, SourceOptions& options, RunScenario
       return usageError(
           fmt::format("{}:{}: the program of this scenario does not compile, so it cannot be run", s.file, s.line));
     case Kind::ExpectWarning:
-    case Kind::AllowErrors: break; // the diagnostics are shown
+    case Kind::AllowErrors: break; // diagnostics are printed anyway
     default: scenario.statements.push_back(std::move(s));
     }
   }

@@ -1,4 +1,4 @@
-// rungc seal and key: a seal for program files, with a key a signature; keys to sign with.
+// rungc seal and key: seals program files, with a key also signs them; makes signing keys.
 #include <fcntl.h>
 #include <fmt/format.h>
 
@@ -56,7 +56,7 @@ Result<runtime::SecretKey> readKey(const std::string& path) {
   return *key;
 }
 
-// Why these bytes are not to be sealed.
+// Why these bytes must not be sealed.
 std::string wrongProgram(std::string_view bytes) {
   const runtime::SealedFile file = runtime::readSealed(bytes);
   if (!file.damage.empty()) return "its seal shows damage: " + file.damage + "; build it again";
@@ -111,14 +111,14 @@ void addSeal(CommandLine& app, int& status) {
   command.onRun([options, &status] { status = sealFiles(*options); });
 }
 
-// rungc key: keys to sign programs with.
+// rungc key: makes keys to sign programs with.
 
 namespace {
 
 constexpr unsigned kSecretMode = 0600;
 constexpr unsigned kPublicMode = 0644;
 
-// A key is never written over another.
+// Never overwrites a key.
 int newKey(const std::string& path) {
   const runtime::SecretKey key = runtime::SecretKey::make();
   const std::string publicPath = path + ".pub";

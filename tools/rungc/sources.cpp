@@ -1,4 +1,4 @@
-// Options and steps that all compiling commands share.
+// Options and steps of all commands that compile.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -79,7 +79,7 @@ int writeFile(const std::string& text, const std::string& out) {
 
 int writeOutput(const std::string& text, const std::string& out) {
   if (!out.empty() && out != "-") return writeFile(text, out);
-  std::cout << text; // where that fails, CommandLine::run says so
+  std::cout << text; // CommandLine::run reports a failure
   return kOk;
 }
 
@@ -90,10 +90,10 @@ std::string counted(size_t count, std::string_view what) {
 }
 
 size_t rungsOf(const ir::Module& module) {
-  std::set<uint32_t> numbers; // a drawn rung that calls is several in the module
+  std::set<uint32_t> numbers; // a drawn rung with calls is several rungs of the module
   for (const ir::Routine& routine : module.routines)
     for (const ir::Rung& rung : routine.rungs) numbers.insert(rung.number);
-  numbers.erase(0); // the compiler's
+  numbers.erase(0); // rungs added by the compiler
   return numbers.size();
 }
 
@@ -138,11 +138,11 @@ namespace {
 
 const frontend::Dialect* dialectOf(const SourceManager& sources, std::span<const FileId> files,
                                    const SourceOptions& options) {
-  Diagnostics discarded; // who compiles reports it
+  Diagnostics discarded; // reported when it is compiled
   return files.empty() ? nullptr : compiler::chooseDialect(sources, files, options.dialect, discarded);
 }
 
-// Those of --config; the project's have been checked with their places.
+// Checks --config; the project's keys have been checked with their positions.
 int checkNamedConfig(const frontend::Dialect& dialect, const ConfigPairs& config) {
   int status = kOk;
   for (const compiler::ConfigProblem& problem : scenario::checkConfiguration(dialect, config))
@@ -214,11 +214,11 @@ std::optional<compiler::Compiled> compileSources(SourceManager& sources, const S
 std::optional<compiler::Compiled> compileChecked(SourceManager& sources, const SourceOptions& options,
                                                  compiler::CompileRequest request, int& status) {
   std::optional<compiler::Compiled> compiled = compileFiles(sources, options, std::move(request), true, status);
-  if (compiled) compiled->source.reset(); // it refers to the sources, which may end before
+  if (compiled) compiled->source.reset(); // it refers to the sources, which may be destroyed first
   return compiled;
 }
 
-// The project of a command line: which one it is, and what it adds to the options.
+// Finds the project of a command line, and adds its settings to the options.
 
 namespace {
 
@@ -253,20 +253,20 @@ std::optional<compiler::Project> loadProject(const std::string& file, const Sour
   return project;
 }
 
-// Sources that no project can list.
+// Sources that a project cannot list.
 bool isOwn(const std::string& file) { return file == "-" || file.ends_with(".so"); }
 
-// Gives the exit status.
+// Returns the exit status.
 int checkKinds(const std::vector<std::string>& files) {
   for (const std::string& file : files) {
-    if (isOwn(file)) continue; // a compiled program some commands take
+    if (isOwn(file)) continue; // some commands accept a compiled program
     const std::string other = compiler::otherKind(file, compiler::FileKind::Program);
     if (!other.empty()) return usageError(other);
   }
   return kOk;
 }
 
-// The project that all the named files belong to. Nothing, with status kOk, when there is none.
+// The project to which all named files belong. Nothing, with status kOk, if there is none.
 std::optional<compiler::Project> projectOfFiles(const SourceOptions& options, int& status) {
   if (std::any_of(options.files.begin(), options.files.end(), isOwn)) return std::nullopt;
   const auto file = compiler::findUpwards(fs::path(options.files[0]).parent_path().string());
@@ -278,7 +278,7 @@ std::optional<compiler::Project> projectOfFiles(const SourceOptions& options, in
   return all ? std::move(project) : std::nullopt;
 }
 
-// The project of these options; nothing with status kOk when the files are meant alone.
+// The project of these options; nothing with status kOk if only the files are meant.
 std::optional<compiler::Project> projectOf(const SourceOptions& options, int& status) {
   if (!options.projectFile.empty()) return openProject(options.projectFile, options, status);
   if (options.files.empty()) return openProject("", options, status);
@@ -287,7 +287,7 @@ std::optional<compiler::Project> projectOf(const SourceOptions& options, int& st
   return projectOfFiles(options, status);
 }
 
-// Says that more than what was named is used.
+// Reports that more than the named files is used.
 void sayUse(const SourceOptions& options, const compiler::Project& project) {
   const bool whole = options.files.size() == project.files.size();
   if (options.quiet || options.json || (whole && project.config.empty() && project.includePaths.empty())) return;

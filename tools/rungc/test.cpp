@@ -1,4 +1,4 @@
-// rungc test: scenarios on one or several engines.
+// rungc test: runs scenarios on one or several engines.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -23,14 +23,14 @@
 namespace rung::rungc {
 namespace {
 
-// Runs scenarios on several threads, which share compiled programs (EngineStore) and nothing else, and hands the
-// results on in order.
+// Runs scenarios on several threads, which share only compiled programs (EngineStore), and returns the results in
+// order.
 
 struct PoolCalls {
-  // On the caller's thread, in the order of the files. False: no further scenario is begun, and no further result
-  // given.
+  // Called on the caller's thread, in the order of the files. False: no further scenario is begun, and no further
+  // result passed.
   std::function<bool(TestCase)> finished;
-  // On the caller's thread, now and then while nothing is finished: the file whose result is waited for.
+  // Called repeatedly on the caller's thread while it waits: the file whose result it waits for.
   std::function<void(const std::string& file)> waiting;
 };
 
@@ -81,7 +81,7 @@ private:
 
   const std::vector<std::string>& files_;
   const scenario::RunOptions& options_;
-  std::mutex mutex_; // of what follows
+  std::mutex mutex_; // protects the members below
   std::condition_variable changed_;
   std::vector<std::optional<TestCase>> results_;
   size_t next_ = 0;
@@ -92,7 +92,7 @@ void runAll(const std::vector<std::string>& files, const scenario::RunOptions& o
   Pool(files, options).run(threads, calls);
 }
 
-// The command.
+// The command itself.
 
 struct TestOptions {
   std::vector<std::string> names; // files and folders
@@ -155,7 +155,7 @@ int writeJunit(const std::string& path, const std::vector<TestCase>& tests) {
   return path.empty() ? int{kOk} : writeFile(junitXml(tests), path);
 }
 
-// Folders among the names: a new scenario in them counts, too.
+// Folders among the names, watched for new scenarios, too.
 std::vector<std::string> foldersOf(const std::vector<std::string>& names) {
   std::vector<std::string> folders;
   std::error_code none;
@@ -164,7 +164,7 @@ std::vector<std::string> foldersOf(const std::vector<std::string>& names) {
   return folders;
 }
 
-// All files that the scenarios were made of, and the scenarios themselves.
+// All files that the scenarios used, including the scenarios.
 std::vector<std::string> filesOf(const std::vector<TestCase>& tests) {
   std::vector<std::string> files;
   for (const TestCase& test : tests) {
@@ -176,7 +176,7 @@ std::vector<std::string> filesOf(const std::vector<TestCase>& tests) {
   return files;
 }
 
-// Waits for the next change; false when the user ends the program or files cannot be watched.
+// Waits for the next change; false if the user ends the program or files cannot be watched.
 bool waitForChange(const TestOptions& options, const std::vector<TestCase>& tests,
                    std::filesystem::file_time_type since, int& status) {
   const std::vector<std::string> files = filesOf(tests);

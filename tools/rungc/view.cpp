@@ -1,4 +1,4 @@
-// rungc view: draws a ladder program as a page or a picture, lists a program that has no ladder as a page.
+// rungc view: draws a ladder program as a page or a picture, or lists another program as a page.
 #include <cstdio>
 #include <fmt/format.h>
 #include <memory>
@@ -25,7 +25,7 @@ struct ViewOptions {
   std::string link = std::string(view::kSourceLink);
 };
 
-// Of a project, what the command line does not say.
+// Completes the options from the project.
 void fillIn(ViewOptions& options) {
   if (!options.source.project) return;
   if (options.title.empty()) options.title = options.source.project->name;
@@ -49,7 +49,7 @@ std::string listed(view::Listing listing, const ViewOptions& options) {
   return view::renderTable(listing, {}, pageOf(options));
 }
 
-// The page or picture; nothing where the program has mistakes.
+// The page or picture; nothing if the program has errors.
 std::optional<std::string> render(SourceManager& sources, std::span<const FileId> files, const ViewOptions& options,
                                   const frontend::CompileOptions& compile, Diagnostics& diagnostics) {
   const frontend::Dialect* dialect = compiler::chooseDialect(sources, files, options.source.dialect, diagnostics);

@@ -1,4 +1,4 @@
-// rungc wcet: the longest that a run of each task may take.
+// rungc wcet: the longest time that a run of each task can take.
 #include <fmt/format.h>
 #include <iostream>
 #include <memory>
@@ -19,7 +19,7 @@ struct WcetOptions {
   RunScenario scenario;
 };
 
-// Gives the exit status; what is wrong is printed.
+// Returns the exit status; problems are printed.
 int findBounds(const WcetOptions& options, const ConfigPairs& config, const compiler::Compiled& compiled,
                codegen::JitEngine& engine, report::Bounds& bounds) {
   const scenario::Working working("measuring");
@@ -46,7 +46,7 @@ int runWcet(const WcetOptions& options) {
   compiler::CompileRequest request;
   if (options.scenario.periodUs > 0) request.options.config["period_us"] = std::to_string(options.scenario.periodUs);
   SourceOptions diagnostics = options.source;
-  diagnostics.json = false; // standard output is the bounds'
+  diagnostics.json = false; // standard output is reserved for the bounds
   const std::optional<compiler::Compiled> compiled = compileSources(sources, diagnostics, request, status);
   if (!compiled) return status;
   const Result<std::unique_ptr<codegen::JitEngine>> engine = report::compileWithLengths(*compiled);

@@ -1,4 +1,4 @@
-// rungc xref: which rungs read and write what.
+// rungc xref: which rungs read and write which places.
 #include <algorithm>
 #include <fmt/format.h>
 #include <memory>
@@ -33,7 +33,7 @@ std::optional<std::vector<report::Entry>> placesOf(const report::CrossReference&
   return entries;
 }
 
-// What the sources declare or a rung of them uses; the rest is the control's and the compiler's own.
+// Whether the sources declare it or one of their rungs uses it; other entries belong to the control and the compiler.
 bool isOfProgram(const rung_program& program, const report::Entry& entry) {
   return entry.declared || std::ranges::any_of(entry.accesses, [&](const report::RungAccess& access) {
            return program.rungs[access.rung].number != 0;

@@ -1,4 +1,4 @@
-// Change tracking (see changes.h).
+// Tracks changes of bits (see changes.h).
 #include "tools/scenario/changes.h"
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 namespace rung::scenario {
 namespace {
 
-constexpr uint32_t kBlock = 64; // bytes that are compared at once; spans closer than this are one
+constexpr uint32_t kBlock = 64; // bytes that are compared at once; spans closer together are merged
 
 // Ascending, without overlaps.
 std::vector<ir::BitRange> merged(std::vector<ir::BitRange> places) {
@@ -23,8 +23,8 @@ std::vector<ir::BitRange> merged(std::vector<ir::BitRange> places) {
   return out;
 }
 
-// What rungs use, and where it is copied from: the rest of a latch or an image changes unseen, and comparing it would
-// cost more than many a scan.
+// The places that rungs use, and the sources of copies to them: the rest of a latch or an image may change unnoticed,
+// and comparing it would often cost more than the scan.
 std::vector<ir::BitRange> placesOf(const ir::Uses& uses) {
   std::vector<ir::BitRange> places;
   for (uint32_t rung = 0; rung < uses.rungCount(); ++rung)
@@ -42,7 +42,7 @@ core::Place bitAt(const runtime::Instance& instance, const ir::BitRange& place, 
 
 } // namespace
 
-// Where the bytes of the place lie in the memory block.
+// Adds the ranges of the memory block that contain the place.
 void Changes::addPieces(const rung_program& program, const ir::BitRange& place, std::vector<Span>& pieces) {
   const rung_space& space = program.spaces[place.space.index];
   const uint32_t firstByte = place.first / 8;

@@ -1,5 +1,5 @@
-// When the bits of a program's memory changed last. It compares what the program uses with a copy after each scan, from
-// when it is made.
+// When the bits of a program's memory last changed. After each scan, what the program uses is compared with a copy that
+// is first made in the constructor.
 #pragma once
 #include <optional>
 #include <vector>
@@ -20,21 +20,21 @@ public:
     int64_t us = 0;
     bool operator==(const Scan&) const = default;
   };
-  // When it was made.
+  // The scan at which it was made.
   Scan begin() const { return begin_; }
-  // The last scan that ended with another value than the one before it; number 0: none since the beginning. Nothing for
-  // places that rungs do not use.
+  // The last scan that ended with another value than the scan before; number 0: no change since the beginning. Nothing
+  // for places that rungs do not use.
   std::optional<Scan> last(const runtime::Instance& instance, const ir::BitRange& place) const;
-  // Whether the place was written after the last scan, by a `set`.
+  // Whether a `set` has written the place since the last scan.
   bool pending(const runtime::Instance& instance, const ir::BitRange& place) const;
 
 private:
-  struct Span { // of the memory block
+  struct Span { // a range of the memory block
     uint32_t offset = 0;
     uint32_t size = 0;
-    uint32_t copy = 0; // in copy_
+    uint32_t copy = 0; // offset in copy_
   };
-  // Scans of one length: time(n) = us + (n - first) * step.
+  // The times of scans of equal length: time(n) = us + (n - first) * step.
   struct Pace {
     uint64_t first = 0;
     int64_t us = 0;
@@ -45,12 +45,12 @@ private:
   void compare(const Span& span, const uint8_t* now);
   void noteTime(uint64_t scan, int64_t us);
   int64_t timeOf(uint64_t scan) const;
-  // Index of the bit in scans_; nothing when it is not watched.
+  // Index of the bit in scans_; nothing if the bit is not watched.
   std::optional<size_t> indexOf(const runtime::Instance& instance, const ir::BitRange& place, uint32_t bit) const;
 
-  std::vector<Span> spans_; // ascending
+  std::vector<Span> spans_; // ascending by offset
   std::vector<uint8_t> copy_;
-  std::vector<uint32_t> scans_; // of the last change, by bit of copy_
+  std::vector<uint32_t> scans_; // scan of the last change, by bit of copy_
   std::vector<Pace> paces_;
   uint64_t scan_ = 0;
   Scan begin_;

@@ -1,4 +1,4 @@
-// The compiling part of a scenario.
+// Compiles the program of a scenario.
 #include "tools/scenario/compile_step.h"
 
 #include <fmt/format.h>
@@ -17,7 +17,7 @@ namespace {
 
 struct Reported {
   const Diagnostic* diagnostic;
-  uint32_t line; // 0: no place
+  uint32_t line; // 0: no position
   bool expected = false;
 };
 
@@ -45,7 +45,7 @@ const Statement* firstOf(const Scenario& scenario, Kind kind) {
   return found == scenario.statements.end() ? nullptr : &*found;
 }
 
-// Every expected diagnostic must be there.
+// Every expected diagnostic must have been reported.
 void checkExpected(const Scenario& scenario, std::vector<Reported>& reported, std::vector<Problem>& problems) {
   for (const Statement& s : scenario.statements) {
     if (s.kind != Kind::ExpectError && s.kind != Kind::ExpectWarning) continue;
@@ -67,7 +67,7 @@ void checkExpected(const Scenario& scenario, std::vector<Reported>& reported, st
   }
 }
 
-// And no other error, unless the scenario allows that.
+// Any other error is a problem, unless the scenario allows errors.
 void checkOthers(const Scenario& scenario, const std::vector<Reported>& reported, const SourceManager& sources,
                  std::vector<Problem>& problems) {
   const Statement* first = firstOf(scenario, Kind::ExpectError);
@@ -127,17 +127,17 @@ compiler::CompileRequest requestOf(const Scenario& scenario, const CompileSettin
   return request;
 }
 
-// Nothing when one cannot be read.
+// Nothing if a file cannot be read.
 std::optional<std::vector<FileId>> addFiles(SourceManager& sources, const std::vector<std::string>& names,
                                             const compiler::CompileRequest& request, CompileStep& step) {
   Result<std::vector<FileId>> files = compiler::addFiles(sources, names, request.options.config);
   if (files.ok()) return std::move(files).value();
-  step.files = names; // one that is missing may come
+  step.files = names; // a missing file may be created later
   step.environment = files.error();
   return std::nullopt;
 }
 
-// As `rungc check`. What the front end knows refers to the sources, which do not outlive the step.
+// Warns like `rungc check`. The front end's analysis refers to the sources, which do not outlive the step.
 void reportNames(compiler::Compiled& program, const SourceManager& sources, Diagnostics& diagnostics) {
   report::reportOddNames(sources, program.source->analysis(), *program.layout, *program.uses,
                          program.dialect->shownSpaces, diagnostics);

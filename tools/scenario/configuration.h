@@ -1,4 +1,4 @@
-// Checks a configuration as the compiler and the simulated control of the dialect read it.
+// Checks a configuration for the compiler and the simulated control of the dialect.
 #pragma once
 #include <vector>
 
@@ -6,7 +6,7 @@
 
 namespace rung::scenario {
 
-// In the order given, as the control reads them. Files of the control lie in the current folder.
+// Applies the entries in the given order. Files that they name are looked for in the working directory.
 std::vector<compiler::ConfigProblem> checkConfiguration(const frontend::Dialect& dialect, compiler::ConfigPairs config);
 
 } // namespace rung::scenario

@@ -1,4 +1,4 @@
-// Lines that a person types at a running program.
+// Executes lines that the user types while a program runs.
 #include "tools/scenario/console.h"
 
 #include <fmt/format.h>
@@ -22,7 +22,7 @@ namespace rung::scenario {
 
 namespace {
 
-// By blanks; the last word may be empty.
+// Splits at blanks; the last word may be empty.
 std::vector<std::string> typedWords(std::string_view line) {
   std::vector<std::string> words(1);
   for (const char c : line) {
@@ -117,7 +117,7 @@ Outcome Console::executeLine(std::string_view line) {
   return execute(statement.value());
 }
 
-// A name alone shows its value.
+// A single name shows its value.
 Outcome Console::unreadable(const std::string& word, bool alone, const std::string& problem) {
   if (alone) {
     const auto reading = readName(session_.instance(), session_.nc(), word, false);
@@ -366,13 +366,13 @@ std::string relativeTo(const fs::path& folder, const std::string& file) {
   return none ? file : relative.string();
 }
 
-// As a word, or the last words, of a statement.
+// Quotes the text if needed, as one or more words at the end of a statement.
 std::string asWord(const std::string& text) {
   const bool plain = !text.starts_with('#') && text.find_first_of(" \t") == std::string::npos;
   return plain ? text : '"' + text + '"';
 }
 
-// Files that the control reads lie relative to the scenario; those of the compiler relative to the program.
+// Files that the control reads are relative to the scenario; those of the compiler are relative to the program.
 std::string configValue(const std::string& dialect, const std::string& key, const std::string& value,
                         const fs::path& folder) {
   const frontend::Dialect* known = frontend::findDialect(dialect);
@@ -470,7 +470,7 @@ std::vector<std::string> services(const rung_program& program) {
   return names;
 }
 
-// Those of the folder that the word names so far; folders end in a slash.
+// Files in the folder that the word begins with; folders end in a slash.
 std::vector<std::string> files(std::string_view word) {
   const fs::path folder = fs::path(word).parent_path();
   std::vector<std::string> names;
@@ -484,7 +484,7 @@ std::vector<std::string> files(std::string_view word) {
 
 std::string_view withoutQuote(std::string_view word) { return word.starts_with('"') ? word.substr(1) : word; }
 
-// Names with blanks, as a statement takes them.
+// Quotes names with blanks, as statements need them.
 std::vector<std::string> inQuotes(std::vector<std::string> names) {
   for (std::string& name : names)
     if (name.find(' ') != std::string::npos) name = '"' + name + '"';

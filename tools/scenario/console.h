@@ -1,4 +1,4 @@
-// Prints what watched names become, which messages come and go, each with the time, and the lines of print statements.
+// Prints changes of watched names and messages, each with the time, and the lines of print statements.
 #pragma once
 #include <functional>
 #include <optional>
@@ -17,22 +17,22 @@
 
 namespace rung::scenario {
 
-using Print = std::function<void(const std::string& line)>; // a line without its end, or several
+using Print = std::function<void(const std::string& line)>; // prints one or several lines, without the last line break
 
 class Watch final : public Observer {
 public:
   explicit Watch(Print print) : print_(std::move(print)) {}
 
-  // "" or why the name cannot be watched. Its first value is printed at the next look.
+  // Adds a name; "" or why it cannot be watched. Its first value is printed at the next look().
   std::string add(const std::string& name, const Session& session);
-  // False: it is not watched.
+  // False: the name is not watched.
   bool remove(const std::string& name);
   std::vector<std::string> names() const;
 
   void scanned(const Session& session) override { look(session); }
   void replaced(const Session& session, const NextProgram& next) override;
   void printed(const std::string& line) override { print_(line); }
-  // Prints what has changed since the last look.
+  // Prints the changes since the last look().
   void look(const Session& session);
 
 private:
@@ -45,19 +45,19 @@ private:
   Print print_;
   std::vector<Watched> watched_;
   std::vector<nc::ShownMessage> shown_;
-  bool otherTexts_ = false; // perhaps: another program has taken over
+  bool otherTexts_ = false; // another program may have taken over, with other texts
 };
 
-// What was done to a running program, written as a scenario that does it again.
+// Records what was done to a running program as a scenario that does it again.
 
-// How the program was made and started. Paths can be opened from the working directory.
+// How the program was compiled and started. Paths are relative to the working directory.
 struct Start {
   std::vector<std::string> programs;
   std::vector<std::pair<std::string, std::string>> config; // those of the project first
-  std::vector<std::string> connects;                       // statements of a scenario
-  int64_t periodUs = 0;                                    // that a scenario chose; 0: the program's own
-  std::optional<compiler::Project> project;                // that the files belong to
-  std::string notAScenario;                                // not empty: why no scenario can start it so
+  std::vector<std::string> connects;                       // connect statements
+  int64_t periodUs = 0;                                    // period that a scenario chose; 0: the program's own
+  std::optional<compiler::Project> project;                // the project that the files belong to
+  std::string notAScenario;                                // not empty: why no scenario can start the program this way
 };
 
 class Recording {
@@ -65,39 +65,40 @@ public:
   explicit Recording(Start start) : start_(std::move(start)) {}
 
   const Start& start() const { return start_; }
-  // A statement that did what it says, as a scenario writes it.
+  // Adds a statement that was executed, as a scenario writes it.
   void add(std::string statement);
-  // A statement about another program, whose files these are; paths can be opened from the working directory.
-  // `notAScenario`: not empty, why no scenario can do that.
+  // Adds a statement that names another program, which consists of these files; paths are relative to the working
+  // directory. `notAScenario`: if not empty, why no scenario can do that.
   void addProgram(std::string word, std::vector<std::string> files, const std::string& notAScenario);
 
-  // The scenario, as the file of this path: what was added, then what the watched names hold now and the fault that has
-  // stopped the program. Fails when no scenario can do the same.
+  // The text of the scenario, for a file of this path: the recorded statements, then the current values of the watched
+  // names and the fault that has stopped the program. Fails if no scenario can do the same.
   Result<std::string> scenario(const std::string& path, const Session& session,
                                const std::vector<std::string>& watched) const;
 
 private:
-  // The project that a scenario in this folder runs this program by, without naming it; null: it has to name it.
+  // The project through which a scenario in this folder finds the program without naming it; null: it has to name the
+  // program.
   const compiler::Project* ownProject(const std::string& folder) const;
   void writeStart(const std::string& path, const std::string& dialect, std::string& text) const;
 
   struct Done {
-    std::string statement; // with `files`: its word alone
+    std::string statement; // if there are `files`: only the first word
     std::vector<std::string> files = {};
   };
   Start start_;
   std::vector<Done> statements_;
 };
 
-// What the last word of a line at the prompt can become.
+// Completes the last word of a line at the prompt.
 
 class Completion {
 public:
-  // `statements`: the words of all statements and commands. The session outlives this and has started.
+  // `statements`: the first words of all statements and commands. The session must have started and outlive this.
   Completion(const Session& session, std::vector<std::string> statements)
       : session_(session), statements_(std::move(statements)) {}
 
-  // Of word `index` of a line, which begins with a word whose others are these. Sorted; case does not matter.
+  // Completions of word `index` of a line; `words` says what the words after the first name. Sorted; case is ignored.
   std::vector<std::string> of(Words words, size_t index, std::string_view word);
 
 private:
@@ -105,31 +106,31 @@ private:
 
   const Session& session_;
   std::vector<std::string> statements_;
-  std::vector<std::string> values_; // looked up when they are asked for first
-  uint32_t generation_ = 0;         // of the instance, then
+  std::vector<std::string> values_; // looked up on first use
+  uint32_t generation_ = 0;         // the instance's generation when values_ was filled
 };
 
-// The first part that all of them share.
+// The longest common prefix.
 std::string commonStart(const std::vector<std::string>& words);
 
-// What a person types at a running program: every statement of a scenario, and commands that only look. Each line is
-// executed at once; what was done can be saved as a scenario.
+// The commands at the prompt of a running program: every statement of a scenario, and commands that only look. Each
+// line is executed at once; what was done can be saved as a scenario.
 
 enum class Outcome : uint8_t { Done, Failed, Interrupted, Quit };
 
 class Console {
 public:
-  // All outlive the console.
+  // All references must outlive the console.
   Console(Session& session, Watch& watch, Recording& recording, const Explainer& explainer, Print print);
 
-  // One line as it was typed; empty lines and comments do nothing. A fault is reported.
+  // Executes one line as typed; empty lines and comments do nothing. A fault is reported.
   Outcome execute(std::string_view line);
-  // A statement that is not typed: of --set and --scenario.
+  // Executes a statement that was not typed: from --set or --scenario.
   Outcome execute(const Statement& statement);
 
-  // The session's place: "scan 3, 0.030 s> ".
+  // The prompt with the session's scan and time: "scan 3, 0.030 s> ".
   std::string prompt() const;
-  // What the last word of the line, as far as it is typed, can become.
+  // Completions of the last word of the line, up to the cursor.
   std::vector<std::string> completions(std::string_view line);
 
 private:
@@ -145,7 +146,7 @@ private:
   Outcome fail(const std::string& message);
   Outcome unreadable(const std::string& word, bool alone, const std::string& problem);
   Outcome include(const std::string& file);
-  // Interrupted when the statement did less than it says.
+  // Records the statement. Interrupted if it did less than it says.
   Outcome record(const Statement& s, uint64_t scansBefore, int64_t usBefore);
   void recordProgram(const Statement& s);
   void reportFault();

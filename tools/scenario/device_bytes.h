@@ -11,19 +11,19 @@
 
 namespace rung::scenario {
 
-// What a value means as bytes: `isHex` of a text in pairs of digits, else of its characters; of a number its eight
-// bytes, the lowest first.
+// The bytes of a value: if `isHex`, a text is pairs of hexadecimal digits, else its characters count; a number has
+// eight bytes, the lowest first.
 std::optional<std::string> bytesOf(const Value& value, bool isHex);
-// Those in the memory of a program that an argument names; of a text up to its terminator.
+// The bytes in the program's memory to which an argument points; of a text, up to its terminator.
 std::string bytesAt(const runtime::Instance& instance, int64_t argument, bool isText);
-// One part of an answer's bytes, for a request that fetches them.
+// Puts the requested part of an answer's bytes into the reply, for a request that fetches them.
 void putPart(std::string_view bytes, const core::ServiceRequest& request, core::ServiceReply& reply);
 
-// A request that a scenario may look at, with the bytes of its arguments as they were when it was made.
+// A request that a scenario may check, with the bytes of its arguments at the time when it was made.
 struct Asked {
   core::ServiceRequest request;
-  std::vector<std::string> bytes; // by argument; empty: of a request without bytes
-  bool complete = false;          // it has been answered
+  std::vector<std::string> bytes; // by argument; empty for a request without bytes
+  bool complete = false;          // whether it has been answered
 };
 
 } // namespace rung::scenario

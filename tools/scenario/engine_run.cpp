@@ -13,9 +13,9 @@ namespace rung::scenario {
 
 namespace {
 
-constexpr ptrdiff_t kMostUnread = 50'000; // entries of the log; a session of hours must not fill the memory
+constexpr ptrdiff_t kMostUnread = 50'000; // most log entries; a session of hours must not fill the memory
 
-// A shared object is machine code, whatever made it.
+// A shared object counts as JIT code, whichever engine made it.
 compiler::EngineKind kindOf(const runtime::Engine& engine) {
   return compiler::engineFromName(engine.name()).value_or(compiler::EngineKind::Jit);
 }
@@ -49,7 +49,7 @@ std::string EngineRun::replace(runtime::Engine& next, const compiler::GetCompile
   rung::Image image = rung::Image::adopt(next.program(), next.context());
   serveWith(image, next, compiled);
   rung::Replacement replacement(machine_.instance(), image);
-  replacement.allowLate(); // the clock of a scenario waits
+  replacement.allowLate(); // a scenario's clock waits for the replacement
   ReplaceReport planned(replacement);
   requests_.take(instance());
   if (check(rung_instance_replace(machine_.instance().handle(), replacement.handle())) == RUNG_LATER)
@@ -83,7 +83,7 @@ void EngineRun::ignore() {
 
 namespace {
 
-constexpr size_t kListed = 8; // changes in a message
+constexpr size_t kListed = 8; // most changes in a message
 constexpr char kCutNote[] = ": its new place has no room for all its contents, the rest is lost";
 
 std::string counted(uint32_t count, std::string_view what) {

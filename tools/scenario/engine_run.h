@@ -1,4 +1,4 @@
-// What has become of the state when a program took the place of another, in words.
+// What happened to the state when a program replaced another, in words.
 #pragma once
 #include <memory>
 #include <optional>
@@ -15,11 +15,11 @@
 
 namespace rung::scenario {
 
-// Before the key of what the compiler made, where a name would mean a cell.
+// Precedes the key of state that the compiler made, where a name would mean a cell.
 inline constexpr std::string_view kStateWord = "state";
 
 std::optional<runtime::ChangeKind> changeKindFromName(std::string_view name);
-// "moved COUNT", "renamed LAMP BEACON", "new state MAIN/TMR": as expect_change names it.
+// "moved COUNT", "renamed LAMP BEACON", "new state MAIN/TMR": as expect_change writes it.
 std::string textOf(const runtime::StateChange& change);
 
 struct ReplaceReport {
@@ -29,52 +29,52 @@ struct ReplaceReport {
   uint32_t keptCells = 0;
   uint32_t keptStates = 0;
   std::string bound;                         // rung_replacement_info::bound
-  std::vector<runtime::StateChange> changes; // those that no statement has taken
+  std::vector<runtime::StateChange> changes; // changes that no statement has taken yet
 
-  // Takes it out; "" or what is there instead.
+  // Removes the change from `changes`; "" or which changes there are instead.
   std::string take(const runtime::StateChange& change);
-  // "" or what there is.
+  // "" or the changes that remain.
   std::string expectNone() const;
-  // What was kept, a line for each change, and how long a slice of it may last.
+  // A line for each change of state, and the longest time that a slice of the replacement may take.
   std::vector<std::string> lines() const;
 };
 
-// One engine's run of a program in its simulated NC, and what a scenario has yet to look at.
+// One engine's run of a program in its simulated NC, with the output that a scenario has yet to check.
 
 class EngineRun {
 public:
-  // Files that the NC's configuration names lie in `folder`. The engine outlives the run.
+  // Files that the NC's configuration names are looked for in `folder`. The engine must outlive the run.
   EngineRun(runtime::Engine& engine, std::string folder, sim::Clock clock);
 
   std::string_view engineName() const { return engine_->name(); }
   sim::Machine& machine() { return machine_; }
-  // The program from inside.
+  // The program instance for direct access.
   runtime::Instance& instance() { return machine_.inside(); }
   const runtime::Instance& instance() const { return machine_.inside(); }
   sim::SimulatedNc& nc() { return machine_.nc(); }
   const sim::SimulatedNc& nc() const { return machine_.nc(); }
   Requests& requests() { return requests_; }
-  std::vector<std::string>& unreadLog() { return unreadLog_; } // since the last expect_log
+  std::vector<std::string>& unreadLog() { return unreadLog_; } // lines since the last expect_log
 
-  // Code of the program can be made anew from what `compiled` gives, when it is asked for.
+  // Lets the program's code be recompiled from the result of `compiled`, when that becomes necessary.
   void serve(const compiler::GetCompiled& compiled);
 
-  // Switches the program on; what was to be looked at is dropped. Throws as Machine::powerOn.
+  // Switches the program on and drops all unchecked output. Throws as Machine::powerOn.
   void powerOn(nc::PowerOn kind);
-  // Another program of the same dialect takes over from the running one. "" or why it cannot, and nothing has happened;
-  // its engine outlives the run.
+  // Replaces the running program by another one of the same dialect, whose engine must outlive the run. "" or why that
+  // is impossible; then nothing has changed.
   std::string replace(runtime::Engine& next, const compiler::GetCompiled& compiled, ReplaceReport& report);
-  // Runs the NC and the program: a scan, a slot, the fast part or a slice.
+  // Runs the NC and the program for a scan, a slot, the fast part or a slice.
   using Advance = void (sim::Machine::*)();
   void advance(Advance how);
-  // The operator or the machine does something between two scans.
+  // Executes an action of the operator or the machine between two scans.
   template <class Act>
   std::string operate(Act act) {
     std::string problem = machine_.operate(act);
     takeLog();
     return problem;
   }
-  // No statement will look at them: requests are refused, and what the log holds is dropped.
+  // Refuses requests and drops the log, for runs without statements that check them.
   void ignore();
 
 private:

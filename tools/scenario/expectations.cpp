@@ -36,7 +36,7 @@ std::string expectRange(const EngineRun& run, const Statement& s) {
   return reading.ok() ? checkRange(reading.value(), s) : reading.error();
 }
 
-// Of several messages with this number one must (or none may) have the properties.
+// Of several messages with this number, one must (or none may) have the properties.
 std::string expectMessage(const EngineRun& run, const Statement& s) {
   std::string seen;
   std::string difference;

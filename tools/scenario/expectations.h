@@ -1,4 +1,5 @@
-// What the statements about values, messages, the log and the fault do in one run. Each gives "" or what is wrong.
+// The statements that check values, messages, the log and the fault of one run. Each function returns "" or what is
+// wrong.
 #pragma once
 #include <string>
 

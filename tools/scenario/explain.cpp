@@ -22,15 +22,15 @@ using report::shownName;
 using report::shownRange;
 using runtime::Ref;
 
-// Bounds of the text; what is left out is counted.
+// Limits of the text; omitted entries are counted.
 constexpr size_t kWriters = 3;
-constexpr size_t kListedWriters = 8; // that are only named
-constexpr size_t kNames = 12;        // that a writing rung reads
-constexpr size_t kOthers = 2;        // rungs that decide whether it runs, call its routine, or hand it a register
-constexpr size_t kOtherNames = 6;    // that each of them reads
-constexpr size_t kCopies = 4;        // from image to image
+constexpr size_t kListedWriters = 8; // of those that are only named
+constexpr size_t kNames = 12;        // names that a writing rung reads
+constexpr size_t kOthers = 2;        // rungs that decide whether it runs, call its routine, or pass it a register
+constexpr size_t kOtherNames = 6;    // names that each of them reads
+constexpr size_t kCopies = 4;        // followed from image to image
 
-// The same kind of place elsewhere.
+// A place of the same kind at another position.
 Ref moved(Ref place, const BitRange& to) {
   place.space = to.space.index;
   place.byte = to.first / 8;
@@ -47,7 +47,7 @@ enum class Forced : uint8_t { No, Part, All };
 
 class Explanation {
 public:
-  // `beginning`: what the changes are known from.
+  // `beginning`: the scan from which changes are known.
   Explanation(const Session& session, const ir::Uses& uses, const Changes& changes, std::string beginning)
       : session_(session), instance_(session.instance()), program_(instance_.program()), uses_(uses), changes_(changes),
         beginning_(std::move(beginning)) {}
@@ -90,7 +90,7 @@ private:
   std::string text_;
 };
 
-// A force holds a cell wherever it is copied to and from.
+// A force applies to a cell and to everything that it is copied to or from.
 Forced Explanation::forcedOf(const BitRange& bits) const {
   const auto isForced = [&](uint32_t bit) {
     const core::Place at = instance_.memory().locateBit(bits.space.index, bit / 8, bit % 8);
@@ -123,9 +123,9 @@ std::string Explanation::age(const Ref& place) const {
   return fmt::format(", changed in {}", scanText(last->number, last->us));
 }
 
-// ---- who writes ----------------------------------------------------------------------------------------------------
+// ---- writers -------------------------------------------------------------------------------------------------------
 
-// The rungs that write the place, or those that write what is copied there.
+// Explains the rungs that write the place, or those that write the source of its copy.
 void Explanation::sources(const Ref& place, size_t copies) {
   const ir::Uses::Writers writers = uses_.writersOf(bitsOf(place));
   std::vector<uint32_t> all = writers.certain;
@@ -157,10 +157,10 @@ void Explanation::listed(const std::vector<uint32_t>& rungs) {
   if (rungs.size() > kListedWriters) line(4, "and by {} more", rungs.size() - kListedWriters);
 }
 
-// ---- what they read ------------------------------------------------------------------------------------------------
+// ---- values that they read -----------------------------------------------------------------------------------------
 
-// Earlier rungs whose result this one takes over. Those of the compiler, such as the one that asks the clock for all
-// timers, are in no drawing, and no mistake of a program is in them.
+// Earlier rungs whose register this one uses. Rungs added by the compiler, such as the one that reads the clock for all
+// timers, are not shown: they are in no drawing, and a mistake of the program cannot be there.
 void Explanation::registers(uint32_t rung) {
   std::vector<uint32_t> from = uses_.registersFrom(rung);
   std::erase_if(from, [&](uint32_t one) { return program_.rungs[one].number == 0; });
@@ -188,7 +188,7 @@ void Explanation::reads(int indent, uint32_t rung, size_t most) {
   if (names.size() > most) line(indent, "and {} more", names.size() - most);
 }
 
-// Nothing for areas that have no names, unless what is there was copied from one that has.
+// Nothing for areas without names, unless the place was copied from one that has them.
 std::optional<std::string> Explanation::nameLine(const Use& use) const {
   const std::optional<BitRange> shown = report::knownPlace(program_, uses_, use.place);
   if (!shown) return std::nullopt;

@@ -1,4 +1,4 @@
-// Why a name holds its value: the rungs that write it, what decides whether they run, and every name that they read
+// Explains the value of a name: the rungs that write it, what decides whether they run, and every name that they read
 // with its value and the scan of its last change.
 #pragma once
 #include <optional>
@@ -13,8 +13,8 @@ namespace rung::scenario {
 
 class Explainer final : public Observer {
 public:
-  // After the session's start and before its first scan; both outlive the explainer. Without `uses` (of a program that
-  // was not compiled here) nothing can be explained.
+  // Made after the session's start and before its first scan; both arguments must outlive the explainer. Without `uses`
+  // (the program was not compiled in this process) nothing can be explained.
   Explainer(const Session& session, const ir::Uses* uses) : session_(session) { follow(uses); }
 
   void scanned(const Session& session) override {
@@ -26,8 +26,8 @@ public:
   }
 
   bool knowsProgram() const { return uses_ != nullptr; }
-  // Lines, each begun by a line break; "" for what lies in the NC and not in the program's memory.
-  // `wantReal`: of the real that begins there.
+  // The explanation, each line preceded by a line break; "" for a place in the NC and not in the program's memory.
+  // `wantReal`: explains the real number that begins there.
   std::string why(std::string_view name, bool wantReal = false) const;
 
 private:
@@ -39,7 +39,7 @@ private:
 
   const Session& session_;
   const ir::Uses* uses_ = nullptr;
-  std::optional<Changes> changes_; // of the program that runs
+  std::optional<Changes> changes_; // of the running program
   bool replaced_ = false;
 };
 

@@ -31,7 +31,7 @@ Result<rung::Forces> prepare(EngineRun& run, const Forces::Values& values) try {
 }
 
 void force(EngineRun& run, rung_forces* forces) {
-  (void)rung_instance_force(run.machine().instance().handle(), forces); // the first run was asked before
+  (void)rung_instance_force(run.machine().instance().handle(), forces); // the first run has accepted it
 }
 
 } // namespace
@@ -69,7 +69,7 @@ std::string Forces::clear(const EngineRuns& runs, const std::vector<std::string>
   return {};
 }
 
-// They end by themselves at a fault, a stop, a power-on and when another program takes over.
+// Forces end at a fault, a stop, a power-on and when another program takes over.
 const Forces::Values& Forces::values(const EngineRuns& runs) {
   if (!runs[0]->instance().forced()) values_.clear();
   return values_;

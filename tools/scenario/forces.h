@@ -1,4 +1,4 @@
-// Cells that a scenario or a person holds at values, in all engines of a session (rung_forces).
+// Cells that a scenario or a user forces to values, in all engines of a session (rung_forces).
 #pragma once
 #include <map>
 #include <memory>
@@ -15,18 +15,18 @@ public:
   using EngineRuns = std::vector<std::unique_ptr<EngineRun>>;
   using Values = std::map<std::string, Value>; // by name
 
-  // One more, or another value. "" or what is wrong, and nothing has happened.
+  // Adds a force or changes its value. "" or what is wrong; then nothing has changed.
   std::string set(const EngineRuns& runs, const std::string& name, const Value& value);
-  // These no longer; no names: none at all.
+  // Releases these names; without names, all.
   std::string clear(const EngineRuns& runs, const std::vector<std::string>& names);
-  // Those in effect.
+  // The active forces.
   const Values& values(const EngineRuns& runs);
 
 private:
   std::string put(const EngineRuns& runs, Values values);
 
   Values values_;
-  std::vector<rung::Forces> inRuns_; // in effect, by run
+  std::vector<rung::Forces> inRuns_; // active forces, by run
 };
 
 } // namespace rung::scenario

@@ -30,7 +30,7 @@ Statement statementOf(Kind kind, std::string name) {
   return statement;
 }
 
-// As a scenario writes them: relative to its folder.
+// With paths as a scenario writes them: relative to its folder.
 Statement programOf(const compiler::Project& project, const fs::path& folder) {
   Statement statement = statementOf(Kind::Program, "");
   for (const std::string& file : project.files) {

@@ -1,12 +1,12 @@
-// A scenario without a `program` statement belongs to the project that its file lies in.
+// A scenario without a `program` statement uses the project that contains its file.
 #pragma once
 #include "tools/scenario/scenario.h"
 
 namespace rung::scenario {
 
-// Puts the files, the dialect and the configuration of the project before the statements; what the scenario itself
-// configures stays. False, and nothing happens, where a program is named or where there is no project. A project file
-// with mistakes is a problem of the scenario.
+// Inserts the files, the dialect and the configuration of the project before the statements; the scenario's own
+// configuration takes precedence. Returns false and changes nothing if the scenario names a program or there is no
+// project. Mistakes in the project file become problems of the scenario.
 bool takeProject(Scenario& scenario);
 
 } // namespace rung::scenario

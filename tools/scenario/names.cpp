@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::string_view kQuantity = "NC.";
 
-// Names of values of the program or the NC that a statement reads or writes.
+// Names of values of the program or the NC in a statement.
 std::vector<std::string> valueNames(const Statement& s) {
   const Words named = StatementInfo::of(s).words;
   if (named == Words::Value) return {s.name};
@@ -67,7 +67,7 @@ std::vector<std::string> namesOf(const rung_program& program, const sim::Simulat
   }
   const nc::SignalTable* signals = nc::signalsOf(program.dialect);
   if (signals == nullptr) return names;
-  for (const nc::Signal& signal : *signals) // not of every area, nor of every structure, a program names the rows
+  for (const nc::Signal& signal : *signals) // programs name only some rows of areas and structures
     if (seen.insert(signal.symbol).second && nc.readPlace(program, signal.symbol)) names.emplace_back(signal.symbol);
   return names;
 }
@@ -84,7 +84,7 @@ std::vector<Problem> unknownNames(const Scenario& scenario, const rung_program& 
   std::vector<Problem> problems;
   const rung_program* running = &program;
   const auto check = [&](const Statement& s, const std::string& name) {
-    if (name.starts_with(kQuantity)) return; // some exist only once they have been set
+    if (name.starts_with(kQuantity)) return; // some quantities exist only once they have been set
     const bool isMessage = s.kind == Kind::Expect && isMessageWord(name);
     if (!nc.readPlace(*running, name) && !nc.readCell(name) && !nc.cellMayCome(name))
       problems.push_back(problemAt(s, unknownName(*running, nc, name) + std::string(isMessage ? kMessageNote : "")));

@@ -1,4 +1,4 @@
-// Scenario files (see scenario.h): lines to statements, included files in place, the order of statements.
+// Reads scenario files (see scenario.h): lines to statements, included files in place, the order of statements.
 #include <algorithm>
 #include <filesystem>
 #include <fmt/format.h>
@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr size_t kMostIncludes = 1000; // files that include each other twice would never end
+constexpr size_t kMostIncludes = 1000; // limits files that include each other
 
 // The text of a file that should be a scenario.
 Result<std::string> readText(const std::string& path) {
@@ -50,7 +50,7 @@ public:
 
 private:
   struct Open {
-    std::string path; // as it is shown
+    std::string path; // for display
     fs::path canonical;
   };
 
@@ -67,7 +67,7 @@ private:
     scenario_.startUnknown = scenario_.startUnknown || parsed.shapesStart;
   }
 
-  // Gives "" or what is wrong.
+  // Returns "" or what is wrong.
   std::string take(Statement statement) {
     if (statement.kind == Kind::Include) return include(statement.name);
     const StatementInfo& info = StatementInfo::of(statement);
@@ -98,7 +98,7 @@ private:
   }
 
   Scenario& scenario_;
-  std::vector<Open> open_; // the innermost last
+  std::vector<Open> open_; // files being read, the innermost last
   size_t includes_ = 0;
   bool advanced_ = false;
 };
@@ -121,7 +121,7 @@ Scenario parse(std::string path, std::string_view text) {
   Scenario scenario = parseLines(std::move(path), text);
   if (!scenario.statements.empty() && scenario.statements[0].kind == Kind::Program) return scenario;
   if (!scenario.startUnknown && takeProject(scenario)) return scenario;
-  if (!scenario.startUnknown) // else a line that cannot be read may be the one
+  if (!scenario.startUnknown) // otherwise the line that cannot be parsed may be the missing one
     scenario.problems.insert(
         scenario.problems.begin(),
         {scenario.path, 1, "a scenario begins with: program FILE; only in a project it may be left out"});

@@ -1,4 +1,4 @@
-// The measurements (see profiler.h).
+// The measurements of a profile (see profiler.h).
 #include "tools/scenario/profiler.h"
 
 #include <algorithm>
@@ -13,9 +13,9 @@ namespace rung::scenario {
 namespace {
 
 constexpr size_t kMaxCauses = 5;
-constexpr double kCauseShare = 0.02; // of the scan: less explains nothing
+constexpr double kCauseShare = 0.02; // share of the scan: a smaller one does not explain anything
 
-// A whole scan, its number among all of a run, and where it was.
+// A whole scan: its number in its scenario, and where it ran.
 struct Place {
   std::string scenario;
   uint64_t scan = 0;
@@ -24,14 +24,14 @@ struct Place {
   uint32_t line = 0;
 };
 
-// What all measurements share: which scan this is.
+// Common to all measurements: counts the scans.
 class Measurement : public Observer {
 public:
   virtual void rewind() { scans_ = 0; }
   void enter(const Scenario& scenario) { scenario_ = scenario.path; }
   uint64_t scans() const { return scans_; }
   const rung_program* program() const { return program_; }
-  // The scenarios are not all of one program.
+  // Whether the scenarios are not all of one program.
   bool differs() const { return differs_; }
   bool replaced() const { return replaced_; }
 
@@ -52,7 +52,7 @@ public:
   }
 
 protected:
-  // The instance was switched on.
+  // Called when the instance has been switched on.
   virtual void begin(runtime::Instance& instance) = 0;
   virtual void end(const runtime::Instance& instance, bool whole, const Place& place) = 0;
 
@@ -64,7 +64,7 @@ private:
   bool replaced_ = false;
 };
 
-// Counters of rungs, whatever they count; remembers what each rung took in one scan.
+// Reads counters of rungs in any unit; remembers the cost of each rung in one scan.
 class RungMeasurement : public Measurement {
 public:
   explicit RungMeasurement(double cost) : collector_(0, cost) {}
@@ -79,19 +79,19 @@ protected:
     collector_.started(instance.profile());
   }
 
-  report::ProfileCollector collector_; // of no rungs before the first start
+  report::ProfileCollector collector_; // without rungs before the first start
   Place place_;
   std::vector<uint64_t> remembered_;
 };
 
-// Nothing but which scan it is.
+// Only counts the scans.
 class RunOnly final : public Measurement {
 protected:
   void begin(runtime::Instance&) override {}
   void end(const runtime::Instance&, bool, const Place&) override {}
 };
 
-// Operations: remembers the scan with the most.
+// Counts operations; remembers the scan with the most.
 class CountOperations final : public RungMeasurement {
 public:
   CountOperations() : RungMeasurement(0) {}
@@ -113,7 +113,7 @@ private:
   uint64_t most_ = 0;
 };
 
-// Time of whole scans, as the machine will run them.
+// Measures whole scans on the engine that the machine will use.
 class TimeScans final : public Measurement {
 public:
   void rewind() override {
@@ -137,7 +137,7 @@ private:
   report::ScanTimes times_;
 };
 
-// Time of rungs: remembers the shortest times of the rungs in scan `which`.
+// Measures rungs; remembers their shortest times in scan `which`.
 class TimeRungs final : public RungMeasurement {
 public:
   explicit TimeRungs(size_t which) : RungMeasurement(runtime::calibratedClock().costTicks), which_(which) {}
@@ -168,7 +168,7 @@ private:
   report::ScanTimes times_;
 };
 
-// Of all scans: 0 when the rung runs in fewer than half of them.
+// Median over all scans: 0 if the rung runs in fewer than half of them.
 double usualOf(const report::ProfileCollector& collector, uint32_t which) {
   const report::ProfileCollector::Rung& rung = collector.rungs()[which];
   const double idle = static_cast<double>(collector.scans() - rung.scans) / static_cast<double>(collector.scans());
@@ -266,7 +266,7 @@ private:
     return measure("counting branches", runs, 1, compiler::EngineKind::Interp, watched, false);
   }
 
-  // A scenario does the same in every run, or its counts would mean nothing.
+  // A scenario must do the same in every run, or its counts would mean nothing.
   bool agree(const CountOperations& operations, const TimeRungs& rungs) {
     for (uint32_t i = 0; i < operations.program()->rung_count; ++i) {
       const uint64_t once = operations.collector().rungs()[i].executions;
@@ -304,7 +304,7 @@ private:
 
   const ProfileRequest& request_;
   ProfileOutcome outcome_;
-  std::vector<std::unique_ptr<EngineStore>> stores_; // of the measurements; their programs are reported on
+  std::vector<std::unique_ptr<EngineStore>> stores_; // of the measurements; the report refers to their programs
 };
 
 } // namespace

@@ -2,9 +2,9 @@
 // measurement disturbs another:
 //
 //   once       on the interpreter, which counts operations: exact, the same in every run
-//   N times    as the machine will run it: times of whole scans, slices and tasks
+//   N times    on the engine that the machine will use: times of whole scans, slices and tasks
 //   N times    with counters and clock around each rung
-//   once       on the interpreter, where branches are to be counted
+//   once       on the interpreter, if branches are to be counted
 #pragma once
 #include <cstdint>
 #include <functional>
@@ -19,21 +19,21 @@
 namespace rung::scenario {
 
 struct ProfileRequest {
-  std::vector<Scenario> scenarios;   // all of one program
-  std::vector<std::string> programs; // instead of the files that the scenarios name, when not empty
+  std::vector<Scenario> scenarios;   // all of them run the same program
+  std::vector<std::string> programs; // if not empty, they replace the files that the scenarios name
   compiler::EngineKind engine = compiler::EngineKind::Jit;
   report::Order order = report::Order::Operations;
-  uint32_t repeat = 5;                              // N
-  std::function<void(const std::string&)> progress; // what is being done; may be empty
-  ir::BranchCounts* branches = nullptr;             // what branches of rungs did is added there; null: not counted
+  uint32_t repeat = 5;                              // the N above
+  std::function<void(const std::string&)> progress; // called with a description of each stage; may be empty
+  ir::BranchCounts* branches = nullptr;             // counts of branches are added to it; null: not counted
 };
 
 struct ProfileOutcome {
   bool done = false;
   report::Profile profile;
-  // When not done:
-  std::string scenario; // the one that failed
-  RunResult result;     // why
+  // If not done:
+  std::string scenario; // the scenario that failed
+  RunResult result;     // why it failed
 };
 
 ProfileOutcome profileScenarios(const ProfileRequest& request);

@@ -31,7 +31,7 @@ void runTerminal(Console& console, Signal& signal, const std::function<void()>& 
   std::cout << "Statements as in a scenario; Tab completes, help lists them, quit ends." << std::endl;
   while (!ends(signal)) {
     const std::optional<std::string> line = editor.read(console.prompt());
-    if (!line) std::cout << std::endl; // the shell's prompt gets a line of its own
+    if (!line) std::cout << std::endl; // puts the shell's prompt on a new line
     if (!line || ends(signal)) return;
     begins();
     if (console.execute(*line) == Outcome::Quit) return;
@@ -58,12 +58,12 @@ bool runPrompt(Console& console, Signal& signal, const std::function<void()>& be
   return passed;
 }
 
-// A line on the terminal about work that takes long.
+// A line on the terminal about long work.
 
 namespace {
 
 constexpr double kQuietSeconds = 2;
-constexpr double kPauseSeconds = 0.1; // faster output cannot be read
+constexpr double kPauseSeconds = 0.1; // faster updates cannot be read
 constexpr size_t kUsualWidth = 80;
 
 size_t widthOf(int terminal) {
@@ -91,7 +91,7 @@ void Progress::show(std::string_view text) {
   const double now = seconds();
   if (now < kQuietSeconds || now < last_ + kPauseSeconds) return;
   last_ = now;
-  // One that is cut to the terminal's width stays one line and can be erased.
+  // Shortened to the terminal's width, it stays one line and can be erased.
   fmt::print(out_, "\r\033[K{}", text.substr(0, widthOf(fileno(out_)) - 1));
   std::fflush(out_);
   shown_ = true;
@@ -137,8 +137,8 @@ void Working::show() {
 
 namespace {
 
-constexpr int kHistory = 1000;      // lines
-constexpr size_t kMostListed = 200; // completions
+constexpr int kHistory = 1000;      // number of lines
+constexpr size_t kMostListed = 200; // most completions
 constexpr wchar_t kControlC = 3;
 constexpr size_t kGap = 2; // between two columns
 
@@ -184,7 +184,7 @@ struct LineEditor::State {
   }
   static char* showPrompt(EditLine* edit) { return of(edit).prompt.data(); }
 
-  // Waits for input or a signal; none is missed that comes before the wait.
+  // Waits for input or a signal; a signal that arrives before the wait is not missed.
   static void waitForInput(const Signal& signal) {
     sigset_t both;
     sigset_t before;
@@ -197,8 +197,8 @@ struct LineEditor::State {
     sigprocmask(SIG_SETMASK, &before, nullptr);
   }
 
-  // One character of UTF-8. libedit's own function would not return at a signal. Until the terminal is in libedit's
-  // mode, Ctrl-C is a signal too.
+  // Reads a character of UTF-8. libedit's own function would not return at a signal. Until the terminal is in libedit's
+  // mode, Ctrl-C is a signal, too.
   static int readCharacter(EditLine* edit, wchar_t* character) {
     Signal& signal = of(edit).signal;
     std::mbstate_t state{};
@@ -215,7 +215,7 @@ struct LineEditor::State {
       if (count < 0 && errno == EINTR) continue;
       if (count <= 0) return 0;
       size_t used = std::mbrtowc(character, &byte, 1, &state);
-      if (used == static_cast<size_t>(-1)) { // the bytes so far are not UTF-8: dropped; this one may begin anew
+      if (used == static_cast<size_t>(-1)) { // invalid UTF-8 so far, dropped; this byte may begin a character
         state = {};
         used = std::mbrtowc(character, &byte, 1, &state);
       }
@@ -278,7 +278,7 @@ std::optional<std::string> LineEditor::read(const std::string& prompt) {
   state_->prompt = prompt;
   state_->givenUp = false;
   int count = 0;
-  el_set(state_->edit, EL_PREP_TERM, 1); // before the prompt can be seen: what is typed at it is a key
+  el_set(state_->edit, EL_PREP_TERM, 1); // before the prompt is visible: whatever is typed then is a key
   const char* line = el_gets(state_->edit, &count);
   if (state_->givenUp) return std::string();
   if (line == nullptr || count <= 0) return std::nullopt;

@@ -38,7 +38,7 @@ ServiceSignature signatureOf(const Instance& instance, const core::ServiceReques
   return ServiceSignature(row != nullptr ? *row : nc::ServiceRow(nc::kUnknownService, request.name->text));
 }
 
-// Null: it asks no device.
+// Null: the request is not to a device.
 const DeviceService* deviceServiceOf(const Instance& instance, const core::ServiceRequest& request) {
   return nc::technol::deviceServiceOf(instance.program().dialect, request.name->kind);
 }
@@ -48,12 +48,12 @@ bool fetchesBytes(const Instance& instance, const core::ServiceRequest& request)
   return asked != nullptr && asked->device == nc::technol::Device::Bytes;
 }
 
-constexpr size_t kMostKept = core::ServiceQueue::kRecords; // answers whose bytes are still there
+constexpr size_t kMostKept = core::ServiceQueue::kRecords; // most answers whose bytes are stored
 
 } // namespace
 
-// The answer prepared for the request, taken out; nothing when there is none. A running task has its memory for itself:
-// then only answers that ask for no word of the block are looked at.
+// Removes and returns the answer prepared for the request; nothing if there is none. While a task runs, its memory must
+// not be read: then only answers that compare no word of the block are considered.
 std::optional<Prepared> Requests::takePrepared(const Instance& instance, const ServiceSignature& signature,
                                                const Asked& asked, bool running) {
   for (size_t i = 0; i < prepared_.size(); ++i) {
@@ -118,7 +118,7 @@ bool Requests::takeUnanswered(Instance& instance, const core::ServiceRequest& re
   return true;
 }
 
-// With the bytes that it had when it was made.
+// The request with the bytes that it had when it was made.
 Asked Requests::asAsked(const core::ServiceRequest& request) {
   const auto found =
       std::ranges::find_if(queued_, [&](const Asked& asked) { return asked.request.ticket == request.ticket; });
@@ -209,7 +209,7 @@ std::string Requests::reply(Instance& instance, const Statement& s) {
   return {};
 }
 
-// An instruction whose operands may be left out has several signatures of its name.
+// An instruction with optional operands has several signatures of the same name.
 std::string Requests::prepare(const Instance& instance, const Statement& s) {
   const rung_program& program = instance.program();
   std::string problem = fmt::format("this program never requests the service {}", s.name);
@@ -252,7 +252,7 @@ std::optional<BlockKey> blockKey(const ServiceSignature& signature, std::string_
   return parsed.word >= 1 && parsed.word <= last ? std::optional(parsed) : std::nullopt;
 }
 
-// The buffer of a request, read from and written to the memory of the program.
+// The operand block of a request, read and written in the program's memory.
 class Buffer {
 public:
   Buffer(const Instance& instance, const ServiceSignature& signature, const core::ServiceRequest& request)
@@ -289,7 +289,7 @@ std::string blockDifference(const ServiceSignature& signature, nc::nct::Block bl
 
 // ---- arguments -----------------------------------------------------------------------------------------------------
 
-// Bits of an argument that count.
+// The bits of an argument that are compared.
 uint64_t maskOf(const ServiceSignature& signature, const core::ServiceRequest& request, std::string_view key) {
   const int length = signature.argument("length");
   if (length < 0 || static_cast<uint32_t>(length) >= request.argCount || !text::equalsIgnoringCase(key, "data"))
@@ -298,7 +298,7 @@ uint64_t maskOf(const ServiceSignature& signature, const core::ServiceRequest& r
   return bytes > 0 && bytes < 8 ? (uint64_t{1} << (8 * bytes)) - 1 : UINT64_MAX;
 }
 
-// A quantity of SCP goes by its name: the argument `symbol` is its index.
+// A quantity of SCP is identified by its name: the argument `symbol` is its index.
 bool isScopeName(const ServiceSignature& signature, const KeyValue& key) {
   return key.value.kind == ValueKind::Text && text::equalsIgnoringCase(key.key, "symbol") && signature.isNamed("SCP");
 }
@@ -313,13 +313,13 @@ std::string scopeDifference(const ServiceSignature& signature, int64_t found, co
                      known ? symbols[static_cast<size_t>(found)].name : "unknown", key.value.text);
 }
 
-// A word that a program writes for a number.
+// The number that a word of a program means.
 int64_t wantedOf(const Value& value) {
   const auto word = value.kind == ValueKind::Text ? nc::technol::deviceWord(value.text) : std::nullopt;
   return word.value_or(rawOf(value));
 }
 
-// A number is compared in as many bytes as there are.
+// A number is compared with as many bytes as there are.
 std::string bytesDifference(const ServiceSignature& signature, std::string_view found, const KeyValue& key) {
   auto wanted = bytesOf(key.value, text::equalsIgnoringCase(key.key, "data"));
   if (wanted && key.value.kind != ValueKind::Text) wanted->resize(std::min(wanted->size(), found.size()));
@@ -459,7 +459,7 @@ int64_t argumentOr(const ServiceSignature& signature, const core::ServiceRequest
   return index < 0 || static_cast<uint32_t>(index) >= request.argCount ? otherwise : request.args[index];
 }
 
-// Bytes are at most as many as were asked for.
+// At most the requested number of bytes.
 void setBytes(const ServiceSignature& signature, const core::ServiceRequest& request, const KeyValue& key,
               Answer& answer) {
   answer.bytes = bytesOf(key.value, text::equalsIgnoringCase(key.key, "data")).value_or("");
@@ -468,7 +468,7 @@ void setBytes(const ServiceSignature& signature, const core::ServiceRequest& req
   setResult(answer.reply, signature.dataResult(), static_cast<int64_t>(answer.bytes.size()));
 }
 
-// What a device says of itself where the scenario does not.
+// Properties of the answer that the scenario does not give.
 void setLengths(const ServiceSignature& signature, const core::ServiceRequest& request, Answer& answer) {
   const auto size = static_cast<int64_t>(answer.bytes.size());
   setResult(answer.reply, signature.result("Len"),

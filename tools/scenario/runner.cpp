@@ -1,4 +1,4 @@
-// The scenario runner (see runner.h): compiles, starts a session, and gives it the statements one by one.
+// The scenario runner (see runner.h): compiles, starts a session, and executes the statements one by one.
 #include "tools/scenario/runner.h"
 
 #include <algorithm>
@@ -44,7 +44,7 @@ public:
   }
 
 private:
-  // Of a replace or shadow statement.
+  // The program of a replace or shadow statement.
   struct NamedProgram {
     const Statement* statement;
     std::vector<std::string> files;
@@ -52,7 +52,7 @@ private:
     NextProgram next;
   };
 
-  // Everything that is wrong before the first scan is reported at once.
+  // All problems before the first scan are reported together.
   void compileAndRun() {
     const CompileSettings settings{
         .strict = options_.strict, .instrument = options_.instrument, .marks = options_.engine.observer != nullptr};
@@ -95,13 +95,13 @@ private:
     return good;
   }
 
-  // Of an earlier statement with the same files; null: there is none.
+  // The program of an earlier statement with the same files; null: none.
   std::shared_ptr<StoredProgram> programOf(const std::vector<std::string>& files) const {
     const auto found = std::ranges::find(named_, files, &NamedProgram::files);
     return found == named_.end() ? nullptr : found->program;
   }
 
-  // By file and line; a file that is included twice has each of its problems once.
+  // Sorts by file and line; a problem in a file that is included twice is reported once.
   void sortProblems() {
     const auto place = [&](const Problem& p) {
       return std::pair(std::ranges::find(scenario_.files, p.file) - scenario_.files.begin(), p.line);
@@ -123,7 +123,7 @@ private:
 
   EngineStore& store() { return options_.store != nullptr ? *options_.store : ownStore_; }
 
-  // In the program of a scenario that cannot run only names are looked up.
+  // For a scenario that cannot run the program is only used to look names up.
   std::vector<compiler::EngineKind> engines() const {
     return scenario_.problems.empty() ? options_.engines : std::vector{compiler::EngineKind::Interp};
   }
@@ -153,7 +153,7 @@ private:
     return [&program]() -> Result<const compiler::Compiled*> { return &program.compiled(); };
   }
 
-  // Null when it cannot be made.
+  // Null if it cannot be made.
   runtime::Engine* engineOf(StoredProgram& program, compiler::EngineKind kind) {
     const Result<runtime::Engine*> engine = program.engine(kind, options_.engine);
     if (engine.ok()) return engine.value();
@@ -208,12 +208,12 @@ private:
       if (info.expectsValue()) problem->message += unseenSet();
       if (info.expectsValue() && explainer_) problem->message += explainer_->why(s.name, wantsReal(s));
       result_.problems.push_back(std::move(*problem));
-      return; // what follows would only repeat it
+      return; // further problems would only repeat it
     }
     if (const std::string fault = session_.unexpectedFault(); !fault.empty()) fail(scenario_.statements.back(), fault);
   }
 
-  // That the program has not seen the last value which the scenario has set.
+  // The problem that the program has not read the last value that the scenario set.
   std::string unseenSet() const {
     if (lastSet_ == nullptr) return {};
     return fmt::format("\n    no scan since `set {}` in line {}", lastSet_->name, lastSet_->line);
@@ -223,12 +223,12 @@ private:
   const RunOptions& options_;
   RunResult result_;
   const Statement* lastSet_ = nullptr;     // null: a scan has run since
-  EngineStore ownStore_;                   // when the options bring none
+  EngineStore ownStore_;                   // used if the options have none
   std::shared_ptr<StoredProgram> program_; // outlives the session
   std::vector<NamedProgram> named_;        // in the order of their statements
   Printer printer_{result_.printed};
   Session session_;
-  std::optional<Explainer> explainer_; // once the session has started
+  std::optional<Explainer> explainer_; // set once the session has started
 };
 
 } // namespace

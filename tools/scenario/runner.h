@@ -1,5 +1,5 @@
-// Runs a scenario on one or several engines in step. With several, all memory, messages, services and the fault of each
-// are compared with the first engine's after every scan, whatever the scenario expects.
+// Runs a scenario on one or several engines in step. With several engines, after every scan the memory, messages,
+// services and fault of each are compared with the first engine's, whatever the scenario expects.
 #pragma once
 #include <functional>
 #include <string>
@@ -17,24 +17,24 @@ struct RunOptions {
   compiler::EngineOptions engine;
   bool instrument = false; // the program has profile counters
   bool strict = false;
-  std::vector<std::string> programs; // instead of the scenario's own program statement, when not empty
-  EngineStore* store = nullptr;      // keeps engines for the next scenario; it outlives the run
-  // Called between the start and the first statement, to attach observers, which outlive the run. A text says why the
-  // scenario cannot be run.
+  std::vector<std::string> programs; // if not empty, they replace the scenario's program statement
+  EngineStore* store = nullptr;      // keeps engines for later scenarios; must outlive the run
+  // Called between the start and the first statement, to attach observers, which must outlive the run. Returns "" or
+  // why the scenario cannot run.
   std::function<std::string(Session&, const compiler::Compiled&)> started;
 };
 
 struct RunResult {
   bool passed = false;
   uint64_t scans = 0;
-  std::vector<Problem> problems;    // why it failed, with the scenario's lines
-  std::vector<std::string> printed; // by print statements
-  bool expectsNothing = false;      // with RunOptions::strict that is a problem
-  std::vector<std::string> files;   // that were read: scenarios and sources
-  std::string environment;          // not empty: it could not be run (no compiler, unreadable file)
+  std::vector<Problem> problems;    // why it failed, with the lines of the scenario
+  std::vector<std::string> printed; // output of print statements
+  bool expectsNothing = false;      // a problem with RunOptions::strict
+  std::vector<std::string> files;   // all files that were read: scenarios and sources
+  std::string environment;          // not empty: why the scenario could not be run (no compiler, unreadable file)
 };
 
-// A scenario with problems of its own does not run; what else is wrong with it is found all the same.
+// A scenario with parse problems does not run; its other problems are found all the same.
 RunResult run(const Scenario& scenario, const RunOptions& options);
 
 } // namespace rung::scenario

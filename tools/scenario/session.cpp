@@ -1,4 +1,4 @@
-// A running program that takes statements (see session.h).
+// Executes statements on a running program (see session.h).
 #include "tools/scenario/session.h"
 
 #include <algorithm>
@@ -48,7 +48,7 @@ std::string Session::connect(std::string_view source, std::string_view destinati
 std::vector<sim::NcProblem> Session::start(nc::PowerOn kind) {
   for (const std::unique_ptr<EngineRun>& run : runs_) {
     run->powerOn(kind);
-    // The ends of connections are known when the program has started.
+    // The ends of connections exist only once the program has started.
     if (auto problems = run->nc().connectionProblems(); !problems.empty()) return problems;
   }
   if (std::string text = difference(); !text.empty()) return {{RUNG_NONE, std::move(text)}};
@@ -117,7 +117,7 @@ std::string Session::runFor(const Statement& s) {
     const int64_t before = nowUs();
     if (std::string problem = advanceOnce(&sim::Machine::scan); !problem.empty()) return problem;
     if (interrupted()) return {};
-    // A stopped or faulted program may leave the clock alone; its time continues all the same.
+    // A stopped or faulted program may not advance the clock; time passes all the same.
     if (nowUs() != before) continue;
     for (const std::unique_ptr<EngineRun>& run : runs_) run->instance().advanceClock(end - before);
   }
@@ -158,7 +158,7 @@ std::string Session::unexpectedFault() const {
   return {};
 }
 
-// What the first engine holds: all hold the same.
+// The values of the first engine: they are the same in all.
 std::string Session::print(const Statement& s) {
   const Result<std::string> line = printedLine(s, instance(), nc(), scans_);
   if (!line.ok()) return line.error();

@@ -1,5 +1,5 @@
-// A running program that takes one statement at a time: what a scenario, a prompt or a trace works on. With several
-// engines each statement goes to all of them, and after every scan all memory, messages, services and the fault of each
+// A running program that executes one statement at a time, used by scenarios, the prompt and traces. With several
+// engines, each statement goes to all of them, and after every scan the memory, messages, services and fault of each
 // are compared with the first engine's.
 //
 //   Session session(folder);
@@ -26,11 +26,11 @@ namespace rung::scenario {
 
 class Session;
 
-// A program that takes the place of the running one, or runs beside it.
+// A program that replaces the running one, or runs beside it as a shadow.
 struct NextProgram {
-  std::vector<runtime::Engine*> engines; // one for each of the session's, in their order; they outlive the session
-  const ir::Uses* uses = nullptr;        // outlives the session; null: the program was not compiled here
-  compiler::GetCompiled compiled;        // what it gives outlives the session
+  std::vector<runtime::Engine*> engines; // one for each of the session's, in their order; must outlive the session
+  const ir::Uses* uses = nullptr;        // must outlive the session; null: the program was not compiled in this process
+  compiler::GetCompiled compiled;        // its result must outlive the session
 };
 
 // "scan 12, 0.120 s".
@@ -39,74 +39,77 @@ std::string scanText(uint64_t scan, int64_t us);
 class Observer {
 public:
   virtual ~Observer() = default;
-  // When it is added to a session that has started, or at the start; again after every restart.
+  // Called at the start and after every restart; for an observer that is added later, at once.
   virtual void started(Session& session) { (void)session; }
-  // After every scan, slot and run of the fast part, once the engines have been compared.
+  // Called after every scan, slot and run of the fast part, once the engines have been compared.
   virtual void scanned(const Session& session) = 0;
-  // Another program has taken over.
+  // Called after another program has taken over.
   virtual void replaced(const Session& session, const NextProgram& next) { (void)session, (void)next; }
-  // The line of a print statement.
+  // Called with the line of a print statement.
   virtual void printed(const std::string& line) { (void)line; }
 };
 
 class Session {
 public:
-  // Files that the NC's configuration names lie in `folder`.
+  // Files that the NC's configuration names are looked for in `folder`.
   explicit Session(std::string folder, sim::Clock clock = sim::Clock::Virtual)
       : folder_(std::move(folder)), clock_(clock) {}
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
-  // Before the start. The engines outlive the session; "" or what is wrong.
+  // Both are called before the start. The engines must outlive the session; config returns "" or what is wrong.
   void addEngine(runtime::Engine& engine);
   std::string config(std::string_view key, std::string_view value);
   std::string connect(std::string_view source, std::string_view destination);
-  // Switches the program on. Throws rung::Error where retained memory cannot be taken. What is wrong: connections whose
-  // ends do not exist, engines that disagree; then the session has not started.
+  // Switches the program on. Throws rung::Error if retained memory cannot be loaded. Returns the problems: connections
+  // whose ends do not exist, engines that disagree; with one of them the session has not started.
   std::vector<sim::NcProblem> start(nc::PowerOn kind = nc::PowerOn::Cold);
 
-  // Makes the programs of replace and shadow statements; a failure says why there is none. Without it they are refused.
+  // Compiles the programs of replace and shadow statements; the error says why there is no program. Without it these
+  // statements are refused.
   using MakeProgram = std::function<Result<NextProgram>(const Statement& s)>;
   void setMakeProgram(MakeProgram make) { makeProgram_ = std::move(make); }
 
-  // Of the program that is run from the start.
+  // Sets the source of recompilation for the program that runs from the start.
   void setCompiled(const compiler::GetCompiled& compiled);
 
-  // Executes one statement in all runs. What is wrong is what the statement expected or could not do, with the scan
-  // and the time; statements that belong to the start are refused.
+  // Executes one statement in all runs. The problem says what the statement expected or could not do, with the scan and
+  // the time; statements that belong before the start are refused.
   std::optional<Problem> execute(const Statement& s);
-  // Why the program stopped; "" when it runs or an expect_fault has named the fault.
+  // Why the program stopped; "" if it runs or an expect_fault has named the fault.
   std::string unexpectedFault() const;
 
-  // No statement will look at requests and the log: after every scan, requests are refused and the log is dropped.
+  // For a session without statements that check requests and the log: after every scan, requests are refused and the
+  // log is dropped.
   void setUnattended() { unattended_ = true; }
-  // On the machine's clock, slice by slice, with the first engine: until the program stops or the interrupt says so.
+  // Runs slice by slice on the computer's clock, with the first engine only, until the program stops or the interrupt
+  // returns true.
   runtime::RealTimeStats runRealTime();
 
-  // Of the first engine.
+  // Those of the first engine.
   sim::Machine& machine() { return runs_[0]->machine(); }
   runtime::Instance& instance() { return runs_[0]->instance(); }
   const runtime::Instance& instance() const { return runs_[0]->instance(); }
   sim::SimulatedNc& nc() { return runs_[0]->nc(); }
   const sim::SimulatedNc& nc() const { return runs_[0]->nc(); }
   int64_t nowUs() const { return instance().nowUs(); }
-  uint64_t scans() const { return scans_; } // slots and runs of the fast part count too
-  // Of the last replacement; empty before one.
+  uint64_t scans() const { return scans_; } // includes slots and runs of the fast part
+  // Report of the last replacement; empty before one.
   ReplaceReport report() const { return report_.value_or(ReplaceReport{}); }
-  // What the program beside this one has done otherwise since the last call.
+  // Differences of the shadow from this program since the last call.
   std::vector<std::string> shadowNews() { return shadows_.news(); }
-  // What is forced now.
+  // The active forces.
   const Forces::Values& forces() { return forces_.values(runs_); }
-  // The one that is being executed, for observers; else null.
+  // The statement that is being executed, for observers; otherwise null.
   const Statement* statement() const { return statement_; }
 
-  // The observer outlives the session.
+  // The observer must outlive the session.
   void addObserver(Observer& observer);
-  // Asked after every scan: true ends the statement, which then has no problem.
+  // `interrupted` is called after every scan; true ends the statement, without a problem.
   void setInterrupt(std::function<bool()> interrupted) { interrupted_ = std::move(interrupted); }
 
 private:
-  // The problem with scan and time at the end of its first line.
+  // The problem, with scan and time at the end of its first line.
   std::string atScan(std::string problem) const;
   std::string advance(uint64_t count, EngineRun::Advance how);
   std::string advanceOnce(EngineRun::Advance how);
@@ -116,7 +119,7 @@ private:
   std::string difference() const;
   bool interrupted() const { return interrupted_ && interrupted_(); }
 
-  // Calls act(run) for every run; the first text that one gives is the problem.
+  // Calls act(run) for every run; the first text that is not empty is the problem.
   template <class Act>
   std::string forRuns(Act act) {
     for (const std::unique_ptr<EngineRun>& run : runs_)
@@ -129,7 +132,7 @@ private:
   }
   std::string prefixed(const EngineRun& run, const std::string& problem) const;
 
-  friend struct StatementInfo; // its rows name the functions that run statements
+  friend struct StatementInfo; // its rows refer to the functions that execute statements
   std::string set(const Statement& s);
   std::string scan(const Statement& s);
   std::string fast(const Statement& s);

@@ -1,4 +1,4 @@
-// A program beside that of a session (see shadows.h).
+// Runs a shadow beside a session's program (see shadows.h).
 #include "tools/scenario/shadows.h"
 
 #include <algorithm>
@@ -10,10 +10,10 @@
 namespace rung::scenario {
 namespace {
 
-constexpr size_t kListed = 8; // differences in a message
+constexpr size_t kListed = 8; // most differences in a message
 constexpr const char* kNone = "no program runs beside this one: write shadow FILE… before";
 
-// The shadow works after every scan: there is room for the runs of more than one.
+// The shadow works after every scan, so there is room for the recorded runs of more than one scan.
 uint32_t roomFor(const rung_program& program) {
   return std::min(2 * (program.scan_count + program.fast_count) + 16, RUNG_MOST_SHADOW_ROOM);
 }
@@ -22,7 +22,7 @@ std::string valueText(uint32_t type, rung_value value) {
   return type == RUNG_TYPE_F64 ? fmt::format("{}", value.real) : fmt::format("{}", value.integer);
 }
 
-// Of a service the word before its operands, as in expect_call.
+// For a service, the word before its operands, as in expect_call.
 std::string nameOf(const rung_difference& difference) {
   const std::string_view name = difference.name;
   return std::string(difference.type == 0 ? name.substr(0, name.find(' ')) : name);
@@ -37,7 +37,7 @@ std::string textOf(const rung_difference& difference) {
                      seconds);
 }
 
-// Why it has ended, where that is not what it began for.
+// Why it has ended, if for another reason than the requested end.
 std::string endOf(const rung_shadow_info& info) {
   switch (info.state) {
   case RUNG_SHADOW_FAULTED: return fmt::format("the shadow has stopped with a fault: {}", info.fault);

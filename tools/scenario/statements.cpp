@@ -14,7 +14,7 @@
 namespace rung::scenario {
 namespace {
 
-// What people write who come from elsewhere.
+// Words that users of other tools may write.
 struct Synonym {
   std::string_view word;
   std::string_view statement;
@@ -37,7 +37,7 @@ public:
   ParsedLine run();
 
 private:
-  friend struct StatementInfo; // its rows name the functions that read statements
+  friend struct StatementInfo; // its rows refer to the functions that parse statements
 
   bool done() const { return next_ >= words_.size(); }
   const std::string& word() const { return words_[next_].text; }
@@ -225,7 +225,7 @@ bool LineParser::print() {
   return !s_.keys.empty() || fail("expected a name or a text in quotes");
 }
 
-// A cell may be called "state", too.
+// A cell may have the name "state", too.
 bool LineParser::expectChange() {
   std::string kind;
   if (!takeWord(kind, "new, removed, moved, retyped, released, cut or renamed")) return false;

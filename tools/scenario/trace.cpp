@@ -1,4 +1,4 @@
-// Traces.
+// Writes traces (see trace.h).
 #include "tools/scenario/trace.h"
 
 #include <fmt/format.h>
@@ -17,7 +17,7 @@ namespace {
 
 bool isQuantity(std::string_view name) { return name.starts_with("NC."); }
 
-// The area of the place; "NC" for what lies in no memory.
+// The area of the place; "NC" for a value that is not in memory.
 const char* areaOf(const rung_program& program, const std::optional<runtime::Ref>& place) {
   return place && place->kind != runtime::RefKind::Constant ? program.spaces[place->space].name : "NC";
 }
@@ -31,7 +31,7 @@ runtime::TracedKind kindOf(ValueKind kind) {
   return runtime::TracedKind::Text;
 }
 
-// Bits and bytes without a sign, wider integers with one.
+// Bits and bytes are unsigned, wider integers signed.
 runtime::TracedValue tracedOf(const Reading& value) {
   const bool isSigned = value.kind == ValueKind::Int && value.width > 8;
   return {.known = true,
@@ -66,7 +66,7 @@ std::vector<std::string> defaultTraceNames(const rung_program& program, const ir
 std::string Trace::nameProblem(const std::vector<std::string>& names, const runtime::Instance& instance,
                                const sim::SimulatedNc& nc) {
   for (const std::string& name : names) {
-    if (isQuantity(name)) continue; // some exist only once they have been set
+    if (isQuantity(name)) continue; // some quantities exist only once they have been set
     const Result<Reading> reading = readName(instance, nc, name, false);
     if (!reading.ok()) return reading.error();
   }
@@ -100,7 +100,7 @@ void Trace::replaced(const Session& session, const NextProgram&) {
 
 void Trace::sample(const runtime::Instance& instance, const sim::SimulatedNc& nc, uint64_t scan) {
   readings_.clear();
-  readings_.reserve(sources_.size()); // it stays where it is: texts of `values_` are in it
+  readings_.reserve(sources_.size()); // must not be reallocated: `values_` refers to its texts
   values_.clear();
   for (const Source& source : sources_) {
     const std::optional<Reading>& value = readings_.emplace_back(source.value.read(instance, nc));

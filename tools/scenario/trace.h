@@ -1,4 +1,4 @@
-// The forms of a trace: VCD for wave viewers, CSV for tables.
+// Output formats of a trace: VCD for wave viewers, CSV for tables.
 #pragma once
 #include <cstdint>
 #include <fstream>
@@ -21,40 +21,40 @@ namespace rung::scenario {
 class TraceWriter {
 public:
   virtual ~TraceWriter() = default;
-  // Once, before the samples.
+  // Called once, before the samples.
   virtual void begin(std::string_view program, std::span<const runtime::TracedName> names) = 0;
-  // The values of all names at a time that is not before the last one; some of names that are not known now.
+  // The values of all names at a time that is not before the last one; names that are not known now have no value.
   virtual void sample(int64_t us, uint64_t scan, std::span<const runtime::TracedValue> values) = 0;
 };
 
-// By the ending of the file's name, .vcd or .csv; null for another one.
+// Chosen by the ending of the file's name, .vcd or .csv; null for any other.
 std::unique_ptr<TraceWriter> makeTraceWriter(std::string_view path, std::ostream& out);
 
-// A file of the values that names had during a run, sampled after every scan.
+// A file with the values of names during a run, sampled after every scan.
 //
 //   auto trace = Trace::open("out.vcd", defaultTraceNames(session, uses), session.instance(), session.nc());
 //   session.addObserver(*trace.value());
 //   …
 //   if (std::string error = trace.value()->finish(); !error.empty()) …
 
-// "" when a trace can have this name, else which endings there are.
+// "" if a trace can have this file name, otherwise the possible endings.
 std::string traceFileProblem(std::string_view path);
 
-// The names of all places that rungs read or write at a fixed address: symbols, and addresses that have none. Without
-// `uses` (a program that was not compiled here): all its symbols.
+// The names of all places that rungs read or write at a fixed address: symbols, and addresses without a symbol. Without
+// `uses` (the program was not compiled in this process): all symbols of the program.
 std::vector<std::string> defaultTraceNames(const rung_program& program, const ir::Uses* uses);
 
 class Trace final : public Observer {
 public:
-  // "" when all names are variables of the program or cells of the NC. Quantities of the NC are 0 until they exist.
+  // "" if all names are variables of the program or cells of the NC. Quantities of the NC are 0 until they exist.
   static std::string nameProblem(const std::vector<std::string>& names, const runtime::Instance& instance,
                                  const sim::SimulatedNc& nc);
-  // Begins the file with the values of now. The names have no problem.
+  // Begins the file with the current values. nameProblem() must have returned "" for the names.
   static Result<std::unique_ptr<Trace>> open(const std::string& path, const std::vector<std::string>& names,
                                              const runtime::Instance& instance, const sim::SimulatedNc& nc);
 
   void scanned(const Session& session) override { sample(session.instance(), session.nc(), session.scans()); }
-  // Names that the new program does not have, or with values of another kind, have none from now on.
+  // Names that the new program does not have, or has with another kind of value, have no values from now on.
   void replaced(const Session& session, const NextProgram& next) override;
   void sample(const runtime::Instance& instance, const sim::SimulatedNc& nc, uint64_t scan);
   // Ends the file; "" or why it could not be written.
@@ -68,10 +68,10 @@ private:
   std::unique_ptr<TraceWriter> writer_;
   struct Source {
     NamedValue value;
-    ValueKind kind = ValueKind::Int; // as the file has it
+    ValueKind kind = ValueKind::Int; // kind in the file
   };
   std::vector<Source> sources_;
-  // Of the last sample.
+  // Of the last sample, by name.
   std::vector<std::optional<Reading>> readings_;
   std::vector<runtime::TracedValue> values_;
 };

@@ -25,7 +25,7 @@ int64_t asSigned(uint64_t value, uint32_t width) {
   return static_cast<int64_t>((modulo(value, width) ^ sign) - sign);
 }
 
-// "" when an integer of the width holds the number, as itself or as the pattern of a negative one.
+// "" if an integer of the width can hold the number, directly or as the bit pattern of a negative one.
 std::string widthProblem(const Value& value, uint32_t width) {
   if (value.kind != ValueKind::Int || text::fitsBits(value.number, width)) return {};
   if (width == 1) return fmt::format("a bit takes 0 or 1, not {}", value.text);
@@ -54,7 +54,7 @@ std::string show(const Reading& reading) {
 
 std::string showShort(const Reading& reading) {
   if (reading.kind != ValueKind::Int || reading.width <= 1) return show(reading);
-  // Whether a cell has a sign is the program's affair: both readings.
+  // Whether a cell is signed depends on the program: both readings are shown.
   const int64_t number = asSigned(reading.integer, reading.width);
   return number < 0 ? fmt::format("{} ({})", reading.integer, number) : fmt::format("{}", number);
 }
@@ -92,7 +92,7 @@ std::string cellProblem(const sim::NcCell& now, const Value& value) {
 
 sim::NcCell cellOf(const Value& value) {
   if (value.kind == ValueKind::Text) return {.isText = true, .text = value.text};
-  const bool isTooLong = value.number.form == text::NumberForm::TooLong; // a cell that takes it is a real
+  const bool isTooLong = value.number.form == text::NumberForm::TooLong; // a cell that can hold it is a real
   if (value.kind == ValueKind::Real || isTooLong) return {.isReal = true, .bits = std::bit_cast<uint64_t>(value.real)};
   return {.bits = static_cast<uint64_t>(value.integer)};
 }
@@ -116,7 +116,7 @@ Reading readValue(const Instance& instance, const nc::Control& control, const Re
 
 namespace {
 
-// Why a number or a bit cannot hold the value; "" when it can.
+// Why a number or a bit cannot hold the value; "" if it can.
 std::string numberProblem(const Instance& instance, const Ref& place, const Value& value) {
   if (place.kind == RefKind::Constant) return "a constant cannot be set";
   if (value.kind == ValueKind::Text) return "this name holds a number, not a text";
@@ -132,7 +132,7 @@ std::string numberProblem(const Instance& instance, const Ref& place, const Valu
                      place.width, value.text);
 }
 
-// Where a real is written; nothing where the value is an integer.
+// The place of a real that the value is written to; nothing if the value is an integer.
 std::optional<Ref> realPlace(const Instance& instance, const Ref& place, const Value& value) {
   if (place.kind == RefKind::Real) return place;
   return value.kind == ValueKind::Real ? runtime::asReal(instance.memory(), place) : std::nullopt;

@@ -1,5 +1,5 @@
-// Reading, writing and comparing by the rules of the scenario format: integers as patterns of their width, reals by
-// tolerance, texts as they are.
+// Reads, writes and compares values by the rules of the scenario format: integers as bit patterns of their width, reals
+// with a tolerance, texts exactly.
 #pragma once
 #include <string>
 #include <string_view>
@@ -13,7 +13,7 @@
 
 namespace rung::scenario {
 
-// What a name holds now.
+// The current value of a name.
 struct Reading {
   ValueKind kind = ValueKind::Int;
   uint64_t integer = 0;
@@ -26,22 +26,22 @@ struct Reading {
 Reading readValue(const runtime::Instance& instance, const nc::Control& control, const runtime::Ref& place,
                   bool wantReal);
 std::string show(const Reading& reading);
-// Without the hexadecimal form: "65535 (-1)".
+// As decimal numbers only: "65535 (-1)".
 std::string showShort(const Reading& reading);
 Reading realReading(double value);
 Reading cellReading(const sim::NcCell& cell, bool wantReal);
 sim::NcCell cellOf(const Value& value);
-// "", or why a cell of the NC that holds `now` cannot hold the number.
+// "", or why a cell of the NC, which now holds `now`, cannot hold the number.
 std::string cellProblem(const sim::NcCell& now, const Value& value);
 int64_t signedOf(const Reading& integer);
 
-// "", or why a place that can be written cannot hold the value.
+// "", or why a writable place cannot hold the value.
 std::string valueProblem(const runtime::Instance& instance, const runtime::Ref& place, const Value& value);
-// The cell of this name, at this place, with the value, for a force. The name outlives the result.
+// A forced cell with this name, place and value. `name` must outlive the result.
 Result<rung_forced_cell> forcedCell(const runtime::Instance& instance, const std::string& name,
                                     const runtime::Ref& place, const Value& value);
 
-// Each gives "" or what is wrong.
+// Each of these returns "" or what is wrong.
 std::string writeValue(runtime::Instance& instance, const nc::Control& control, const runtime::Ref& place,
                        const Value& value);
 std::string checkValue(const Reading& reading, const Statement& expect);

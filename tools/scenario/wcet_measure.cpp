@@ -15,7 +15,7 @@
 namespace rung::scenario {
 namespace {
 
-constexpr uint32_t kTimedRuns = 5; // of which the shortest time of each piece counts
+constexpr uint32_t kTimedRuns = 5; // the shortest time of each part over these runs counts
 
 class CountSteps final : public Observer {
 public:

@@ -1,4 +1,4 @@
-// What runs of the tasks took while a program is driven.
+// Measures runs of the tasks while a program is driven.
 #pragma once
 #include <string>
 #include <utility>
@@ -10,14 +10,14 @@
 namespace rung::scenario {
 
 struct TaskDrive {
-  std::string name;                                        // that the measurement is shown under
-  std::vector<std::pair<std::string, std::string>> config; // of the control
+  std::string name;                                        // name of the measurement in the output
+  std::vector<std::pair<std::string, std::string>> config; // configuration of the control
   std::vector<Statement> connects;
   std::vector<Statement> statements;
 };
 
-// Fills Bounds::tasks[..].seen; on the interpreter for steps, on `machineCode` for times. What is wrong: why the
-// program cannot be driven so.
+// Fills Bounds::tasks[..].seen: steps on the interpreter, times on `machineCode`. The error says why the program cannot
+// be driven.
 Result<void> measureTasks(const compiler::Compiled& compiled, runtime::Engine& machineCode, const TaskDrive& drive,
                           report::Bounds& bounds);
 

@@ -18,7 +18,7 @@ struct TimeUnit {
 };
 constexpr TimeUnit kTimeUnits[] = {{"us", 1.0}, {"ms", 1e3}, {"s", 1e6}, {"min", 60e6}};
 constexpr double kMostSeconds = 50; // a larger number without a unit was probably meant in milliseconds
-constexpr double kLongestUs = 9e15; // far from the end of 64 bits
+constexpr double kLongestUs = 9e15; // far below the limit of 64 bits
 
 // The length of the number before the unit.
 size_t numberLength(std::string_view text) {

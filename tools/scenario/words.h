@@ -1,4 +1,4 @@
-// Words of a scenario's line and the numbers, texts and times that they write.
+// Splits a line of a scenario into words, and parses numbers, texts and times.
 #pragma once
 #include <string>
 #include <string_view>
@@ -9,16 +9,16 @@
 namespace rung::scenario {
 
 struct ScenarioWord {
-  std::string text; // a quoted text without its quotes; KEY="a b" keeps them, see valueOfKey
+  std::string text; // without the quotes of a quoted text; KEY="a b" keeps them, see valueOfKey
   bool quoted = false;
 };
 
-// Words of a line up to a comment. Gives "" or what is wrong.
+// The words of a line up to a comment. Returns "" or what is wrong.
 std::string splitLine(std::string_view line, std::vector<ScenarioWord>& words);
 
-// A number, a bit as on, off, true or false, else a text.
+// A number, a bit (on, off, true or false), or else a text.
 Value valueOf(const ScenarioWord& word);
-// What follows the = of KEY=VALUE, which may be in quotes.
+// Value of the text after the = of KEY=VALUE, which may be quoted.
 Value valueOfKey(const std::string& text);
 
 bool isTimeUnit(std::string_view text);

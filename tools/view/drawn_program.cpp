@@ -1,4 +1,4 @@
-// Compiles a program for what its drawing says of names and uses (see drawn_program.h).
+// Compiles a program for the names and uses in its drawing (see drawn_program.h).
 #include "tools/view/drawn_program.h"
 
 #include <algorithm>
@@ -32,7 +32,7 @@ std::optional<Program> drawnProgram(SourceManager& sources, std::span<const File
   if (module == nullptr) return std::nullopt;
   const auto ladders = laddersOf(dialect, sources, files, diagnostics);
   if (!ladders) return std::nullopt;
-  Diagnostics discarded; // the same program: all of it has been reported
+  Diagnostics discarded; // the same program: everything has been reported
   if (!std::ranges::equal(ladders->files, files)) program = dialect.check(sources, ladders->files, options, discarded);
   const report::ModuleReference reference(*module, dialect.shownSpaces);
   return readProgram(sources, {.dialect = &dialect,
@@ -45,7 +45,7 @@ std::optional<Program> drawnProgram(SourceManager& sources, std::span<const File
 }
 
 std::vector<TableRow> rowsOf(const ir::Module& module) {
-  std::map<uint32_t, TableRow> rows; // by the rung's number over all routines, in which the source has them
+  std::map<uint32_t, TableRow> rows; // by the rung's number over all routines, which is in source order
   uint32_t index = 0;
   for (const ir::Routine& routine : module.routines) {
     for (const ir::Rung& rung : routine.rungs) {
@@ -70,11 +70,12 @@ Listing listingOf(const SourceManager& sources, std::span<const FileId> files, s
   std::vector<std::string> names;
   for (const FileId file : files) names.emplace_back(sources.name(file));
   Listing listing{titleOf(shownFiles(names)), std::string(control), std::move(rows), {}};
-  // As they are written, whatever routine comes first; one that is several in the module is one here.
+  // In source order, whatever the order of routines; several rungs of the module that are one rung of the source become
+  // one row.
   std::ranges::stable_sort(listing.rows, {}, &TableRow::number);
   const auto again = std::ranges::unique(listing.rows, {}, &TableRow::number);
   listing.rows.erase(again.begin(), again.end());
-  std::map<std::string_view, FileId> readable; // the last of a name: what a dialect has made of its bytes
+  std::map<std::string_view, FileId> readable; // the last one of a name: its text after the dialect has decoded it
   for (uint32_t i = 0; i < sources.fileCount(); ++i) readable[sources.name(FileId{i})] = FileId{i};
   const auto add = [&](const std::string& path) {
     const auto file = readable.find(path);

@@ -1,4 +1,4 @@
-// Programs as they are shown, from their files: as a drawing, or as a list of their rungs.
+// Programs for display, from their files: as a drawing, or as a list of rungs.
 #pragma once
 #include <map>
 #include <optional>
@@ -13,11 +13,11 @@
 
 namespace rung::view {
 
-// Whether programs of the dialect are ladders.
+// Whether programs of the dialect have ladder drawings.
 bool hasDrawing(const frontend::Dialect& dialect);
 
-// A program of a dialect that has drawings. Nothing for one with errors, which are reported: a drawing of its sound
-// parts would look like the program.
+// A program of a dialect that has drawings. Nothing for a program with errors, which are reported: a drawing of its
+// correct parts would look like the program.
 std::optional<Program> drawnProgram(SourceManager& sources, std::span<const FileId> files,
                                     const frontend::Dialect& dialect, const frontend::CompileOptions& options,
                                     Diagnostics& diagnostics);
@@ -30,21 +30,21 @@ struct TableRow {
   SourcePlace place;
   uint32_t lastLine = 0;
 };
-// The numbered rungs of a module in the order in which the source has them.
+// The numbered rungs of a module in source order.
 std::vector<TableRow> rowsOf(const ir::Module& module);
 
-// A program without a drawing, as it is read.
+// A program without a drawing.
 struct Listing {
   std::string title;
   std::string control;
   std::vector<TableRow> rows;
-  std::map<std::string, std::vector<std::string>> texts; // lines, by path; a file that cannot be read is not there
+  std::map<std::string, std::vector<std::string>> texts; // lines by path, without files that cannot be read
 };
-// `files` are those that the program has been made of, from `sources`; `included` may name them again.
+// `files`: the sources of the program, from `sources`; `included` may name them again.
 Listing listingOf(const SourceManager& sources, std::span<const FileId> files, std::string_view control,
                   std::vector<TableRow> rows, const std::vector<std::string>& included);
 
-// A program of a dialect without drawings; nothing as above.
+// A program of a dialect without drawings; nothing for a program with errors.
 std::optional<Listing> listedProgram(SourceManager& sources, std::span<const FileId> files,
                                      const frontend::Dialect& dialect, const frontend::CompileOptions& options,
                                      Diagnostics& diagnostics);

@@ -1,4 +1,4 @@
-// The pages (see html.h). They are filled into the files of page/.
+// Writes the pages (see html.h) by filling in the files of page/.
 #include "tools/view/html.h"
 
 #include <algorithm>
@@ -19,10 +19,10 @@ struct PageHead {
   std::string_view title;
   std::string_view control;
   size_t rungs = 0;
-  std::string style; // rules of this page, after those of all
+  std::string style; // CSS rules of this page, after the common ones
 };
 
-// As a value of `content`.
+// As a value of the CSS property `content`.
 std::string cssText(std::string_view text) {
   std::string out = "\"";
   for (char c : text) {
@@ -34,7 +34,7 @@ std::string cssText(std::string_view text) {
   return out + '"';
 }
 
-// "main.lad:12", with a link where there is one; nothing for a place without a line.
+// "main.lad:12", with a link if there is one; nothing for a position without a line.
 void appendPlace(std::string& out, const SourceFile& file, uint32_t line, const PageOptions& options) {
   if (line == 0) return;
   const std::string link = options.linkTo ? options.linkTo(file, line) : "";
@@ -45,7 +45,7 @@ void appendPlace(std::string& out, const SourceFile& file, uint32_t line, const 
     put(out, "<a class=\"f\" href=\"{}\">{}</a>", escaped(link), text);
 }
 
-// What is common to all pages; the colours are properties: those of paper, in the dark the others.
+// The common rules of all pages; colours are CSS properties, with other values in dark mode.
 std::string commonRules() {
   std::string light;
   std::string dark;
@@ -65,7 +65,7 @@ std::string paperRules(const PageHead& head, const PageOptions& options) {
   return text::filled(text::textOf(pageFiles(), "paper.css"), marks);
 }
 
-// On paper every page has the heading, and its number.
+// On paper every page has the heading and a page number.
 std::string wholePage(const PageHead& head, const PageOptions& options, std::string_view body) {
   const std::string title = escaped(head.title);
   const std::string style = commonRules() + pictureStyle(true) + paperRules(head, options) + head.style;
@@ -81,9 +81,9 @@ std::string wholePage(const PageHead& head, const PageOptions& options, std::str
   return text::filled(text::textOf(pageFiles(), "page.html"), marks);
 }
 
-// What runs say of a program: the summary on top, a label at a rung.
+// Results of runs: the summary at the top, a label at each rung.
 
-// A rung as the summary lists it.
+// A rung in the summary.
 struct RunRow {
   uint32_t number = 0;
   std::string_view title;
@@ -93,26 +93,26 @@ struct RunRow {
 struct RunsOnPage {
   const RunSummary* summary = nullptr;
   std::vector<RunRow> rungs;
-  bool elements = false; // some of them say what was seen of them
+  bool elements = false; // some rungs have coverage of their elements
 };
 
-constexpr size_t kListed = 10; // of the rungs that take most
-constexpr int kBar = 90;       // pixels of the longest bar
+constexpr size_t kListed = 10; // number of the most expensive rungs
+constexpr int kBar = 90;       // length of the longest bar in pixels
 
-// The most that a rung has: colours and bars are relative to it.
+// The largest share of a rung: colours and bars are relative to it.
 double hottest(const std::vector<RunRow>& rungs) {
   double most = 0;
   for (const RunRow& row : rungs) most = std::max(most, row.run->heat);
   return most;
 }
 
-// Classes of a rung, " H3" or " N"; nothing where nothing is known.
+// CSS classes of a rung, " H3" or " N"; "" if nothing is known.
 std::string classesOf(const Run& run, double hottest) {
   if (run.state == Run::State::Never) return " N";
   return run.state == Run::State::Ran ? fmt::format(" H{}", heatStep(run, hottest)) : "";
 }
 
-// What a rung took, with a bar.
+// The share of a rung, with a bar.
 void appendRun(std::string& out, const Run& run, double hottest) {
   if (run.state == Run::State::Unasked) return;
   put(out, "<i class=\"o\"");
@@ -157,7 +157,7 @@ void appendMost(std::string& out, const RunsOnPage& runs) {
   out += "</ol>\n";
 }
 
-// "4, 8–12": a link to the first of neighbours.
+// "4, 8–12": with a link to the first of neighbours.
 void appendNever(std::string& out, const std::vector<RunRow>& rungs) {
   std::string list;
   size_t count = 0;
@@ -177,7 +177,7 @@ void appendNever(std::string& out, const std::vector<RunRow>& rungs) {
   if (count > 0) put(out, "<p>{} rung{} never ran: {}</p>\n", count, count == 1 ? "" : "s", list);
 }
 
-// Lines, legend, the rungs that take most and those that never ran. Nothing without a summary.
+// Summary lines, legend, the most expensive rungs and those that never ran. Nothing without a summary.
 void appendRuns(std::string& out, const RunsOnPage& runs) {
   if (runs.summary->title.empty()) return;
   put(out, "<section id=\"run\" aria-label=\"{0}\"><h2>{0}</h2>\n", escaped(runs.summary->title));
@@ -188,12 +188,12 @@ void appendRuns(std::string& out, const RunsOnPage& runs) {
   out += "</section>\n";
 }
 
-// The page of a program that is drawn.
+// The page of a program with a drawing.
 
 constexpr size_t kTableRows = 100;
 constexpr size_t kGroup = 40;
 constexpr int kHeading = 60;
-constexpr int kPieceHeight = 800; // higher drawings may be torn by the end of a page, between rows
+constexpr int kPieceHeight = 800; // pixels; higher drawings may be divided at the end of a page, between rows
 
 class Page {
 public:
@@ -220,11 +220,11 @@ private:
   int rail_;
   double hottest_ = 0;
   int height_ = 0;   // of the current group
-  std::string file_; // rule of style that names the pages of its file
+  std::string file_; // CSS rule that names the pages of its file
   std::string out_;
 };
 
-// Every file has its name at the foot of its pages.
+// The name of each file is at the foot of its pages.
 std::string Page::style() const {
   std::string style = fmt::format("figcaption {{ max-width: {}px; }}\n", rail_ + kMargin);
   if (program_.files.size() == 1)
@@ -316,7 +316,7 @@ void Page::figure(const Figure& figure) {
   out_ += "</figure>\n";
 }
 
-// The rungs that write or read a name; where there are none, who does.
+// The rungs that write or read a name; if there are none, the machine or NC that does.
 void Page::uses(const NameRow& row, bool writes) {
   std::vector<uint32_t> rungs;
   for (const Use& use : row.uses)
@@ -344,7 +344,7 @@ void Page::row(const NameRow& row, bool withWrites) {
   out_ += "</tr>\n";
 }
 
-// Several tables of the same columns, so that a browser lays out the visible ones only.
+// Several tables with the same columns, so that a browser lays out only the visible ones.
 void Page::table(const NameTable& table, size_t index) {
   put(out_, "<h2 id=\"t{}\">{}</h2>\n", index, escaped(table.title));
   if (!table.texts)
@@ -363,8 +363,8 @@ void Page::table(const NameTable& table, size_t index) {
   }
 }
 
-// Blocks that a browser lays out when they become visible; their height must be known before. A file begins a group of
-// its own: on paper it begins a page. Gives the end of the group.
+// Blocks that a browser lays out when they become visible; their height must be known before. A file begins a new
+// group: on paper it begins a page. Returns the end of the group.
 size_t Page::group(size_t first) {
   std::string before = std::exchange(out_, {});
   height_ = 0;
@@ -391,7 +391,7 @@ std::string Page::run() {
   return wholePage({program_.title, program_.control, program_.figures.size(), style()}, options_, out_);
 }
 
-// The page of a program that has no drawing: the lines of its source by rung.
+// The page of a program without a drawing: the lines of its source by rung.
 
 using FileLine = std::pair<std::string_view, uint32_t>;
 
@@ -436,7 +436,7 @@ private:
   std::map<FileLine, const Run*> byPlace_;
   std::multimap<FileLine, const ElementOverlay*> elements_;
   std::map<std::string_view, size_t> lastOf_;  // the last row of each file
-  std::map<std::string_view, uint32_t> shown_; // of each file: up to this line
+  std::map<std::string_view, uint32_t> shown_; // of each file: the last line that has been shown
   double hottest_ = 0;
   std::string out_;
 };
@@ -448,7 +448,7 @@ const Run& TablePage::runOf(const TableRow& row) const {
   return at == byPlace_.end() ? kNothing : *at->second;
 }
 
-// "14 never closed, 16 never on": by line.
+// "14 never closed, 16 never on": by line number.
 std::string TablePage::missingIn(const TableRow& row) const {
   std::string text;
   auto at = elements_.lower_bound({row.place.file, row.place.line});
@@ -462,7 +462,7 @@ std::string TablePage::missingIn(const TableRow& row) const {
   return text;
 }
 
-// Lines of the source, as far as it is there.
+// Lines of the source, as far as they exist.
 void TablePage::lines(std::string_view file, uint32_t first, uint32_t last) {
   const auto text = listing_.texts.find(std::string(file));
   if (text == listing_.texts.end() || first == 0) return;
@@ -472,7 +472,7 @@ void TablePage::lines(std::string_view file, uint32_t first, uint32_t last) {
   out_ += "</pre>";
 }
 
-// What has not been shown yet before line `end`: remarks, declarations, the beginnings and ends of modules.
+// The lines before line `end` that have not been shown: remarks, declarations, the beginnings and ends of modules.
 void TablePage::linesBetween(const std::string& file, uint32_t end) {
   const auto text = listing_.texts.find(file);
   if (text == listing_.texts.end()) return;
@@ -526,7 +526,7 @@ void TablePage::head(std::string_view title, size_t index) {
   out_ += "</tr></thead><tbody>\n";
 }
 
-// They declare what the others use.
+// Files without rungs, which declare what the others use.
 void TablePage::filesWithoutRungs() {
   size_t index = listing_.rows.size();
   for (const auto& [path, text] : listing_.texts) {

@@ -1,4 +1,4 @@
-// A program as one HTML file that needs nothing else. For the screen, light or dark and of any width, and for paper.
+// A program as one self-contained HTML file, for the screen (light or dark, of any width) and for paper.
 #pragma once
 #include <functional>
 #include <string>
@@ -9,20 +9,20 @@
 
 namespace rung::view {
 
-// Where a line of a source leads; nothing where it leads nowhere.
+// The link of a source line; nothing if it has none.
 using LinkTo = std::function<std::string(const SourceFile& file, uint32_t line)>;
 
 struct PageOptions {
-  std::string date; // as it is to be printed
+  std::string date; // as printed on the page
   std::string revision;
   LinkTo linkTo; // may be empty
 };
 
-// Drawings, names with their uses, a search.
+// The page has drawings, names with their uses, and a search.
 std::string renderHtml(const Program& program, const PageOptions& options = {});
 
-// A page in the look of renderHtml: the source by rung, with what was not seen of a rung's elements beside it. Nothing
-// is said of runs where the overlay is empty.
+// A page in the style of renderHtml: the source by rung, with the uncovered elements of each rung beside it. Without
+// results of runs if the overlay is empty.
 std::string renderTable(const Listing& listing, const Overlay& overlay, const PageOptions& options = {});
 
 } // namespace rung::view

@@ -1,4 +1,4 @@
-// Measure, place from left to right, place from top to bottom, draw.
+// Lays out a rung: measures, places from left to right, places from top to bottom, draws.
 #include "tools/view/layout.h"
 
 #include <algorithm>
@@ -11,34 +11,34 @@ namespace {
 
 using Kind = Cell::Kind;
 
-constexpr int kCellWidth = 96;  // of a contact, at least
-constexpr int kCoilWidth = 128; // so that coils are below each other
+constexpr int kCellWidth = 96;  // minimum for a contact
+constexpr int kCoilWidth = 128; // so that coils are aligned
 constexpr int kGrid = 16;
 constexpr int kNoteWidth = 112;  // of the comment at a contact
-constexpr size_t kManyLines = 3; // of a comment, then it becomes wider
+constexpr size_t kManyLines = 3; // most lines of a comment; beyond them it becomes wider
 constexpr int kWideNote = 160;
 constexpr int kSide = 14; // between the texts of neighbours
-constexpr int kPad = 8;   // in boxes
-constexpr int kHead = 20; // bar of a box
+constexpr int kPad = 8;   // within boxes
+constexpr int kHead = 20; // height of the bar of a box
 constexpr int kBoxNoteWidth = 230;
-constexpr int kAlignedBox = 400; // wider ones do not pull the others along
+constexpr int kAlignedBox = 400; // wider boxes are not aligned with others
 constexpr int kRowGap = 8;
 constexpr int kRemarkGap = 14;
 constexpr int kTop = 2;
-constexpr int kBare = 2; // half the height of a row with nothing but vertical wires
+constexpr int kBare = 2; // half the height of a row with vertical wires only
 constexpr int kBandGap = 14;
 constexpr int kHalo = 4;
-constexpr int kEnd = 16; // between what closes a branch and the right rail
+constexpr int kEnd = 16; // between the end of a branch and the right rail
 
 constexpr Style kLabel = Style::Label;
 
-// What is known of a cell before it has a place.
+// The size of a cell before it is placed.
 struct Measure {
   int width = 0;
-  int symbol = 0; // width of the contact or coil itself
-  int above = 0;  // of the wire in its first row
+  int symbol = 0; // width of the contact or coil without texts
+  int above = 0;  // height above the wire in its first row
   int below = 0;
-  int labels = 0; // boxes: widths of their columns
+  int labels = 0; // boxes: width of the columns
   int pins = 0;
   int body = 0; // boxes: height below the bar
   std::vector<std::string> note;
@@ -50,10 +50,10 @@ struct Height {
   int below = 0;
 };
 
-// A row in one of the bands that it has a part in.
+// A row in one of the bands that contain a part of it.
 struct BandRow {
   uint32_t band = 0;
-  uint32_t firstStop = 0; // of those in the band
+  uint32_t firstStop = 0; // index of the first stop in the band
   uint32_t stopsEnd = 0;
   int wire = 0; // y
 };
@@ -87,7 +87,7 @@ std::vector<LinkedText> wordsOf(const CrossReference& reference) {
   return words;
 }
 
-// Below a contact or coil: its address, and who writes it.
+// Text below a contact or coil: its address, and the rungs that write it.
 LinkedText underline(const Cell& cell) {
   LinkedText line;
   line.add(cell.operand.address);
@@ -156,7 +156,7 @@ private:
   uint32_t bandCount_ = 1;
   std::vector<std::vector<BandRow>> rows_; // by row, its bands from left to right
   int rail_ = 0;
-  std::vector<bool> inBox_; // by row: a box continues from the row above
+  std::vector<bool> inBox_; // by row: whether a box continues from the row above
   int y_ = kTop;
   int jumps_ = 0;
   Picture picture_;
@@ -219,7 +219,7 @@ std::vector<LinkedText> Layout::useLines(const Row& row) const {
   return lines;
 }
 
-// Contacts and coils bring their own wires.
+// Contacts and coils include their own wires.
 int Layout::gap(const Cell& left, const Cell& right) const {
   const auto narrow = [](const Cell& cell) { return cell.kind == Kind::Joint || cell.kind == Kind::Rail; };
   if (narrow(left) && narrow(right)) return 24;
@@ -228,7 +228,7 @@ int Layout::gap(const Cell& left, const Cell& right) const {
   return narrow(left) || narrow(right) ? 4 : 0;
 }
 
-// Boxes at the right rail are as wide as the widest of them, so that their left sides are below each other.
+// Boxes at the right rail get the width of the widest one, so that their left sides are aligned.
 void Layout::alignBoxes() {
   int widest = 0;
   for (size_t i = 0; i < measures_.size(); ++i)
@@ -237,13 +237,13 @@ void Layout::alignBoxes() {
     if (isClosingBox(i)) measures_[i].width = std::max(measures_[i].width, widest);
 }
 
-// Every cell as far left as the cells before it in its rows allow.
+// Places every cell as far to the left as the cells before it in its rows allow.
 void Layout::placeColumns() {
   std::vector<uint32_t> order(sheet_.cells.size());
   std::iota(order.begin(), order.end(), 0u);
   std::stable_sort(order.begin(), order.end(),
                    [&](uint32_t a, uint32_t b) { return sheet_.cells[a].column < sheet_.cells[b].column; });
-  std::vector<uint32_t> last(sheet_.rows.size(), 0); // by row: the cell on the left
+  std::vector<uint32_t> last(sheet_.rows.size(), 0); // by row: the cell to the left
   left_[0] = kLeft;
   for (uint32_t cell : order) {
     const Cell& here = sheet_.cells[cell];
@@ -266,7 +266,7 @@ std::vector<int> Layout::widths() const {
   return result;
 }
 
-// Cuts what is too wide, from left to right.
+// Cuts a rung that is too wide, from left to right.
 void Layout::cut(int rail) {
   if (rail_ <= rail) {
     rail_ = rail;
@@ -301,7 +301,7 @@ size_t Layout::bandIndex(uint32_t row, uint32_t band) const {
   return static_cast<size_t>(at - bands.begin());
 }
 
-// The bands that the row has stops or wires in.
+// Adds the bands in which the row has stops or wires.
 void Layout::addBandRows(uint32_t row) {
   std::vector<BandRow>& bands = rows_.emplace_back();
   const std::vector<Stop>& stops = sheet_.rows[row].stops;
@@ -314,14 +314,14 @@ void Layout::addBandRows(uint32_t row) {
   }
 }
 
-// What a box needs below the wire of its last row.
+// Height of a box below the wire of its last row.
 int Layout::boxBelow(uint32_t cell, uint32_t row, int wire) const {
   const Cell& box = sheet_.cells[cell];
   const int done = row == box.firstRow ? 0 : wire - wireOf(cell, box.firstRow);
   return measures_[cell].body + kHead - measures_[cell].above - done;
 }
 
-// `wire` is known for the height below only.
+// `wire` matters for the height below only.
 Height Layout::rowHeight(uint32_t row, uint32_t band, int wire) const {
   Height height{kBare, kBare};
   const BandRow& part = rows_[row][bandIndex(row, band)];
@@ -343,7 +343,8 @@ Height Layout::rowHeight(uint32_t row, uint32_t band, int wire) const {
   return height;
 }
 
-// The wire of a row is known before the height below it, which depends on where the boxes that end there begin.
+// The wire of a row is placed before the height below it is known, which depends on where the boxes that end there
+// begin.
 void Layout::placeRows() {
   std::vector<std::vector<uint32_t>> rowsOf(bandCount_);
   inBox_.assign(sheet_.rows.size(), false);
@@ -386,7 +387,7 @@ void Layout::text(int x, int y, Anchor anchor, Style style, LinkedText text) {
     picture_.texts.push_back({{x, y}, anchor, style, std::move(text.text), std::move(text.links)});
 }
 
-// From cell to cell, over the ends of bands.
+// Draws from cell to cell, across the ends of bands.
 void Layout::drawWire(uint32_t row, uint32_t left, uint32_t right) {
   int x = rightPort(left);
   for (uint32_t band = bands_[left]; band < bands_[right]; ++band) {
@@ -524,13 +525,13 @@ Picture Layout::run(int rail) {
 int neededRail(const Sheet& sheet) { return Layout(sheet).rail(); }
 Picture layOut(const Sheet& sheet, int rail) { return Layout(sheet).run(rail); }
 
-// Of the places for a cut in the right part of a band the one that cuts the fewest wires.
+// Chooses among the cut positions in the right part of a band the one that cuts the fewest wires.
 
 namespace {
 
 bool isSolid(const Cell& cell) { return cell.kind != Cell::Kind::Rail && cell.kind != Cell::Kind::Joint; }
 
-// Before cells that nothing on their left reaches over.
+// Cut positions: before cells that no cell to their left overlaps.
 std::vector<int> places(const Sheet& sheet, const std::vector<int>& left, const std::vector<int>& width) {
   std::vector<uint32_t> order;
   for (uint32_t i = 0; i < sheet.cells.size(); ++i)
@@ -545,7 +546,7 @@ std::vector<int> places(const Sheet& sheet, const std::vector<int>& left, const 
   return result;
 }
 
-// By place: how many wires a cut there cuts.
+// By cut position, the number of wires that it cuts.
 std::vector<int> wiresAt(const Sheet& sheet, const std::vector<int>& left, const std::vector<int>& places) {
   std::vector<int> wires(places.size() + 1, 0);
   const auto index = [&](uint32_t cell) {
@@ -568,7 +569,7 @@ Cuts chooseCuts(const Sheet& sheet, const std::vector<int>& left, const std::vec
   const std::vector<int> all = places(sheet, left, width);
   const std::vector<int> wires = wiresAt(sheet, left, all);
   Cuts cuts;
-  int start = 0; // what the x of the band is less than that of the whole
+  int start = 0; // difference between x in the whole and x in the band
   size_t at = 0;
   while (needed - start > rail) {
     size_t best = all.size();
@@ -584,14 +585,14 @@ Cuts chooseCuts(const Sheet& sheet, const std::vector<int>& left, const std::vec
   return cuts;
 }
 
-// Cutting at the breaks that the layout names.
+// Cuts at the breaks of the layout.
 
 namespace {
 
-// Tops of the pieces, and the end of the last.
+// Tops of the parts, and the bottom of the last.
 std::vector<int> edgesOf(const Picture& picture, int most) {
   std::vector<int> edges{picture.top};
-  int last = picture.top; // the last break that was seen
+  int last = picture.top; // the last break so far
   for (int at : picture.breaks) {
     if (at - edges.back() > most && last > edges.back()) edges.push_back(last);
     last = at;

@@ -1,4 +1,4 @@
-// Names, addresses and their comments.
+// Looks up names, addresses and their comments.
 #include "tools/view/names.h"
 
 #include <fmt/format.h>
@@ -17,7 +17,7 @@ namespace rung::view {
 
 namespace {
 
-// Whether an address is written as a number, as those of NCT are.
+// Whether addresses are numbers, as those of NCT are.
 bool isNumber(std::string_view address) {
   const std::string_view cell = nc::headOf(address);
   return !cell.empty() && text::isDigit(cell.front());
@@ -43,7 +43,7 @@ void Names::addDefinitions() {
     declared_.emplace(definitions[i].range.begin, i);
     add(definitions[i]);
   }
-  for (const frontend::Definition& definition : definitions) add(definition); // the control's own
+  for (const frontend::Definition& definition : definitions) add(definition); // declared by the control
 }
 
 void Names::addSignals(const frontend::Dialect& dialect) {
@@ -97,7 +97,7 @@ std::string_view Names::valueOf(const frontend::Word& operand) const {
 
 Named Names::find(const frontend::Word& operand) {
   Named named = lookUp(operand);
-  if (named.address == operand.text) named.address.clear(); // an address says nothing of itself
+  if (named.address == operand.text) named.address.clear(); // the address is the operand itself
   return named;
 }
 
@@ -139,7 +139,7 @@ void Targets::ask(uint32_t id, uint32_t rung) {
 
 namespace {
 
-// What a path may have in a link as it is.
+// Characters of a path that need no escape in a link.
 bool isPlain(char c) {
   return text::isDigit(c) || text::isLetter(c) || std::string_view("/._-~").find(c) != std::string_view::npos;
 }
@@ -158,11 +158,11 @@ void replace(std::string& text, std::string_view what, std::string_view with) {
 } // namespace
 
 LinkTo sourceLinks(std::string_view page, std::string_view link) {
-  std::error_code unreadable; // a path that cannot be made whole stays as it is
+  std::error_code unreadable; // a path that cannot be made absolute is left as it is
   const std::filesystem::path folder = std::filesystem::absolute(page, unreadable).parent_path().lexically_normal();
   return [folder, link = std::string(link), known = std::map<std::string, std::string>()](const SourceFile& file,
                                                                                           uint32_t line) mutable {
-    std::string& whole = known[file.path]; // without the line yet
+    std::string& whole = known[file.path]; // the link up to the line number
     if (whole.empty()) {
       std::error_code bad;
       const auto path = std::filesystem::absolute(file.path, bad).lexically_normal();
@@ -176,7 +176,7 @@ LinkTo sourceLinks(std::string_view page, std::string_view link) {
   };
 }
 
-// Uses as drawn, and those that only the program knows.
+// Uses as drawn, and those that only the program shows.
 
 void UseIndex::settle() {
   if (longest_ != 0) return;
@@ -193,7 +193,7 @@ std::vector<Use> UseIndex::drawnAt(const ir::BitRange& place) const {
   return uses;
 }
 
-// What an operand says goes before what the program does with the place.
+// The use by an operand takes precedence over what the program does with the place.
 std::vector<Use> UseIndex::of(const ir::BitRange& place) {
   settle();
   std::vector<Use> uses = drawnAt(place);

@@ -1,4 +1,4 @@
-// What an operand names: its address, its comment, and what it is counted under in the cross reference.
+// The meaning of an operand: its address, its comment, and its key in the cross reference.
 #pragma once
 #include <map>
 #include <optional>
@@ -17,24 +17,24 @@
 namespace rung::view {
 
 struct Named {
-  std::string address; // of a name; of an address the name that is declared for it; never the operand itself
+  std::string address; // for a name, its address; for an address, the name declared for it; never the operand itself
   std::string comment;
   std::string key;                   // the same for all spellings of one place; empty for constants
-  std::optional<ir::BitRange> place; // nothing where it is known at run time only, and for constants
-  bool input = false;                // written by the machine or the NC
-  bool output = false;               // read by them
+  std::optional<ir::BitRange> place; // nothing for constants, and if known at run time only
+  bool input = false;                // the machine or the NC writes it
+  bool output = false;               // the machine or the NC reads it
 };
 
 class Names {
 public:
-  // All must outlive it. `analysis` is of the text that is drawn, `reference` of the program that it compiles to.
+  // All arguments must outlive it. `analysis` is of the drawn text, `reference` of the program that it compiles to.
   Names(const frontend::Dialect& dialect, const frontend::Analysis& analysis, const report::CrossReference& reference);
 
-  // Of an operand of the text, and of a name where it is declared.
+  // For an operand of the text, or a name in its declaration.
   Named find(const frontend::Word& operand);
-  // The label or subprogram that an operand is; null when it is none.
+  // The label or subprogram that the operand names; null if it names none.
   const frontend::TargetUse* targetAt(const frontend::Word& operand) const { return analysis_.targetAt(operand.range); }
-  // What a constant means: its value as declared, otherwise the text itself.
+  // The value of a constant as declared, or the text itself.
   std::string_view valueOf(const frontend::Word& operand) const;
 
 private:
@@ -52,17 +52,17 @@ private:
 
   const frontend::Analysis& analysis_;
   const report::CrossReference& reference_;
-  std::map<std::string, Known> byAddress_; // the first name of a place; declared ones come first
-  std::map<SourcePos, uint32_t> declared_; // where: the definition
-  std::map<std::string, Named> places_;    // that were asked for, by address and length
+  std::map<std::string, Known> byAddress_; // the first name of a place; declared names have precedence
+  std::map<SourcePos, uint32_t> declared_; // position of a name: its definition
+  std::map<std::string, Named> places_;    // looked up before, by address and length
 };
 
-// Where jumps and calls lead: the rungs that begin a subprogram or carry a label, and those that ask for it.
+// Targets of jumps and calls: the rungs that begin a subprogram or have a label, and those that lead to them.
 
 class Targets {
 public:
   struct Target {
-    uint32_t rung = 0; // its number; 0: no rung is known
+    uint32_t rung = 0; // number of the target rung; 0: unknown
     std::vector<uint32_t> callers;
   };
 
@@ -78,23 +78,22 @@ private:
 
 // Links from a page to the lines of the sources.
 
-// From the lines of a source to it as seen from the folder of the page.
+// The default link: the source relative to the folder of the page.
 inline constexpr std::string_view kSourceLink = "{file}#L{line}";
 
-// `link` with {file}, the source as seen from the folder of `page`; {path}, the whole path of the source; {line}.
+// `link` may contain {file}, the source relative to the folder of `page`; {path}, the full path of the source; {line}.
 LinkTo sourceLinks(std::string_view page, std::string_view link);
 
-// Which rungs of a drawing use a place, whatever its operands look like.
+// Finds the rungs of a drawing that use a place, under whatever operands.
 
 class UseIndex {
 public:
-  // `reference` must outlive it. It knows what no operand says: the cells between the two ends of an array, a
-  // counter's own.
+  // `reference` must outlive it; it adds uses that no operand shows: cells within an array, a counter's own cells.
   explicit UseIndex(const report::CrossReference& reference) : reference_(reference) {}
 
-  // A use as drawn. All of them come before the first question.
+  // Adds a drawn use. Must not be called after of().
   void add(const ir::BitRange& place, Use use) { drawn_.push_back({place, use}); }
-  // By rung, each side once.
+  // Ascending by rung, reads and writes each once.
   std::vector<Use> of(const ir::BitRange& place);
 
 private:
@@ -107,7 +106,7 @@ private:
 
   const report::CrossReference& reference_;
   std::vector<Drawn> drawn_;
-  uint32_t longest_ = 0; // bits of a use; 0: not settled yet
+  uint32_t longest_ = 0; // most bits of a use; 0: not determined yet
 };
 
 } // namespace rung::view

@@ -1,4 +1,4 @@
-// From places to the rungs and elements that are drawn there (see overlay.h).
+// Finds the drawn rungs and elements of positions (see overlay.h).
 #include "tools/view/overlay.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Reads the lines of the files beside what the parser found in them, and gathers who uses which name.
+// Combines the lines of the files with the parser's result, and collects the uses of each name.
 #include "tools/view/program.h"
 
 #include <fmt/format.h>
@@ -28,11 +28,11 @@ using frontend::ladder::DeclarationKind;
 using frontend::ladder::LadderFile;
 using frontend::ladder::StatementKind;
 
-constexpr size_t kUsesShown = 8;    // of a coil, at the right rail
-constexpr size_t kWritersShown = 1; // of a contact
-constexpr size_t kTitle = 120;      // characters of a comment that may be a title
+constexpr size_t kUsesShown = 8;    // for a coil, at the right rail
+constexpr size_t kWritersShown = 1; // for a contact
+constexpr size_t kTitle = 120;      // most characters of a comment that may be a title
 
-// Without the ruling lines that authors frame comments with, `--- inputs -------`.
+// Without the rulings with which authors frame comments, `--- inputs -------`.
 std::string_view plain(std::string_view text) {
   constexpr std::string_view kRuling = "-=*#~_+";
   const auto isRuling = [&](std::string_view run) { return run.size() > 2; };
@@ -44,7 +44,7 @@ std::string_view plain(std::string_view text) {
   return text::trimmed(text);
 }
 
-// A number as messages are counted by, without leading zeros.
+// A message number without leading zeros.
 std::string plainNumber(std::string_view text) {
   const size_t first = text.find_first_not_of('0');
   return first == std::string_view::npos ? "0" : std::string(text.substr(first));
@@ -52,7 +52,7 @@ std::string plainNumber(std::string_view text) {
 
 constexpr uint32_t kNone = UINT32_MAX;
 
-// What is used where, in the order of the first use.
+// The uses of each name, in the order of first use.
 class UseList {
 public:
   struct Entry {
@@ -63,25 +63,25 @@ public:
 
   explicit UseList(const report::CrossReference& reference) : index_(reference) {}
 
-  // The index of the entry; kNone for what is not counted.
+  // The index of the entry; kNone if the name is not listed.
   uint32_t add(const Named& named, std::string_view name, Use use) {
     if (named.key.empty()) return kNone;
     const auto [at, fresh] = byKey_.emplace(named.key, static_cast<uint32_t>(entries_.size()));
     if (fresh) entries_.push_back({std::string(name), named, {}});
     if (named.place) index_.add(*named.place, use);
     std::vector<Use>& uses = entries_[at->second].uses;
-    // A rung comes twice at most: it reads and writes.
+    // A rung occurs at most twice: as reader and as writer.
     if (std::find(uses.rbegin(), uses.rbegin() + std::min<ptrdiff_t>(2, std::ssize(uses)), use) ==
         uses.rbegin() + std::min<ptrdiff_t>(2, std::ssize(uses)))
       uses.push_back(use);
     return at->second;
   }
-  // Once all are added: of a place also the uses by other operands, and by none.
+  // Called once all uses are added: adds the uses of a place by other operands, and by none.
   void settle() {
     for (Entry& entry : entries_)
       if (entry.named.place) entry.uses = index_.of(*entry.named.place);
   }
-  // Then: of a place, whether an operand names it or not.
+  // Uses of a place, whether an operand names it or not. Valid after settle().
   std::vector<Use> of(const ir::BitRange& place) { return index_.of(place); }
   const Entry* find(const std::string& key) const {
     const auto at = byKey_.find(key);
@@ -95,11 +95,11 @@ private:
   std::vector<Entry> entries_;
 };
 
-// A place at the right rail for the rungs that use a coil or go to a target; they are not known before the last rung.
+// A row at the right rail for the rungs that use a coil or lead to a target; they are not known before the last rung.
 struct WaitingRow {
   uint32_t figure = 0;
   uint32_t row = 0;
-  uint32_t id = 0; // of the coil's entry, of the target
+  uint32_t id = 0; // of the coil's entry, or of the target
 };
 
 // The rungs that read and write an entry.
@@ -159,18 +159,18 @@ private:
   UseList uses_;
   Targets targets_;
   std::vector<WaitingRow> coils_;
-  std::vector<WaitingRow> marks_;                          // of targets
-  std::vector<std::pair<uint32_t, uint32_t>> subprograms_; // GSK: block, target
+  std::vector<WaitingRow> marks_;                          // rows of targets
+  std::vector<std::pair<uint32_t, uint32_t>> subprograms_; // GSK: index of the block, target
   std::vector<Sides> sides_;                               // by entry of uses_
   std::vector<uint32_t> rowIds_;                           // by entry of uses_
   std::vector<NameRow> declared_;
   std::map<size_t, std::optional<ir::BitRange>> places_; // of those with a name
 
-  // In the current file.
-  std::string comments_; // that nothing has taken yet
+  // Of the current file.
+  std::string comments_; // comments not used yet
 };
 
-// NCT has them in the source, GSK in a file beside it: 8 x byte + bit + 1 is the bit of A that asks for one.
+// NCT has message texts in the source, GSK in a separate file: 8 x byte + bit + 1 is the bit of A that requests one.
 void Reader::readTexts() {
   for (const LadderFile& file : files_)
     for (const Declaration& declaration : file.declarations)
@@ -218,7 +218,7 @@ Place Reader::placeOfElement(SourcePos drawn) const {
   return at == elements.end() || at->drawn != drawn ? Place{} : placeOf(at->written);
 }
 
-// A conversion's hint at what only a command list can say is not a comment of the author.
+// A hint that a conversion writes for what only a command list can express is not a comment of the author.
 bool Reader::isHint(std::string_view text) const {
   return converted() && frontend::network::parseBlocksHint(frontend::gsk::kLanguage, text);
 }
@@ -274,7 +274,7 @@ void Reader::readRung(const LadderFile& file, const frontend::ladder::Rung& rung
     targets_.define(subprograms_.back().second, program_.figures[index].number);
 }
 
-// Until all rungs are read a link has the index of its entry or target (see settleLinks).
+// Until all rungs have been read, a link contains the index of its entry or target (see settleLinks).
 Link Reader::onUse(const OperandUse& use) {
   const Figure& figure = program_.figures.back();
   const uint32_t entry = uses_.add(use.named, use.operand, {figure.number, use.writes});
@@ -295,7 +295,7 @@ Link Reader::onTarget(const frontend::TargetUse& use, uint32_t row) {
   return {};
 }
 
-// "5: overrides", said before "SUB P5", is "overrides"; so is "P5: overrides".
+// "5: overrides" before "SUB P5" becomes "overrides"; so does "P5: overrides".
 std::string_view withoutName(std::string_view title, std::string_view name) {
   const size_t colon = title.find(':');
   if (colon == std::string_view::npos) return title;
@@ -310,8 +310,8 @@ std::string_view withoutName(std::string_view title, std::string_view name) {
   return !said.empty() && whole.ends_with(said) ? text::trimmed(title.substr(colon + 1)) : title;
 }
 
-// The section just before a module, or the last line of comment before a subprogram of GSK, says what it is. The
-// section is not another one then. Before a level comments speak of the program.
+// The section just before a module, or the last line of comment before a subprogram of GSK, becomes its title. That
+// section is not listed separately then. Comments before a level describe the program.
 void Reader::titleFromSection(Block& block, const frontend::ladder::Module& module) {
   if (program_.blocks.empty()) return;
   const Block& before = program_.blocks.back();
@@ -373,7 +373,7 @@ void Reader::readFile(const LadderFile& file) {
   flushComments({});
 }
 
-// Those of `rungs`, which ascend, without one of them and at most so many.
+// `rungs`, which ascend, except one of them, and shortened to a maximum number.
 CrossReference shortened(std::string_view lead, const std::vector<uint32_t>& rungs, uint32_t without, size_t most) {
   CrossReference found{lead, {}, 0, {}};
   for (size_t i = 0; i < rungs.size() && found.rungs.size() < most; ++i)
@@ -407,8 +407,8 @@ CrossReference Reader::callersOf(uint32_t target) const {
   return {"called in", callers, 0, {}};
 }
 
-// At the right rail: a coil says where its bit is read, and where else it is written; a target who goes there.
-// At a contact: who writes it.
+// Fills rows at the right rail: for a coil, where its bit is read and where else it is written; for a target, the rungs
+// that lead to it. At a contact: the rungs that write it.
 void Reader::fillRows() {
   const auto put = [this](const WaitingRow& row, CrossReference reference) {
     if (!reference.rungs.empty()) program_.figures[row.figure].sheet.rows[row.row].uses.push_back(std::move(reference));
@@ -425,7 +425,7 @@ void Reader::fillRows() {
         cell.writers = writersOf(cell.operand.link.id, "\u2190", figure.number, kWritersShown);
 }
 
-// Every row of a name gets its number; every entry of the uses knows its row.
+// Numbers the rows with names; every entry of the uses gets its row.
 void Reader::numberRows() {
   std::unordered_map<std::string_view, uint32_t> byKey;
   uint32_t next = 0;
@@ -533,7 +533,7 @@ std::vector<SourceFile> shownFiles(const std::vector<std::string>& paths) {
   return files;
 }
 
-// One file is the program; several are, as a rule, a folder of their own.
+// A single file gives the title; several files are usually in a separate folder.
 std::string titleOf(const std::vector<SourceFile>& files) {
   if (files.size() == 1) return files[0].name;
   const auto folderOf = [](const std::string& path) { return path.substr(0, path.find_last_of('/') + 1); };
@@ -564,7 +564,7 @@ public:
 private:
   void add(uint32_t index);
   void open(Kind kind, uint32_t index, const std::string& title);
-  // Entries of this rank and below end here.
+  // Closes the open entries of this rank and below.
   void close(uint32_t rank) {
     while (!open_.empty() && rankOf(entries_[open_.back()].kind) >= rank) open_.pop_back();
   }
@@ -572,13 +572,13 @@ private:
 
   const Program& program_;
   std::vector<ContentsEntry> entries_;
-  std::vector<size_t> open_; // those that what comes next is part of
+  std::vector<size_t> open_; // entries that contain the next one
 };
 
 void Collector::open(Kind kind, uint32_t index, const std::string& title) {
   const Block& block = program_.blocks[index];
   const bool first = !entries_.empty() && entries_.back().kind == Kind::File && entries_.back().firstRung == 0;
-  if (kind == Kind::Module && first) { // most files are one module
+  if (kind == Kind::Module && first) { // most files consist of one module
     entries_.back().title = block.text + (title.empty() ? "" : ": " + title);
     return;
   }

@@ -1,5 +1,5 @@
-// A program as it is printed: headings, comments and rungs in the order of the source, then its names with the rungs
-// that use them. What writers print; nothing here has a place on paper yet.
+// A program in printable form: headings, comments and rungs in the order of the source, then its names with the rungs
+// that use them. Positions on paper are computed later.
 #pragma once
 #include <span>
 #include <string>
@@ -14,21 +14,21 @@
 
 namespace rung::view {
 
-// One of the files that the reader knows.
+// A source file that the reader knows.
 struct SourceFile {
-  std::string path; // as it was given to the compiler
-  std::string name; // as it is shown: without its folder where that is enough
+  std::string path; // as given to the compiler
+  std::string name; // as shown: without its folder if that is unambiguous
 };
 
 std::vector<SourceFile> shownFiles(const std::vector<std::string>& paths);
-// Of a program that has no other title: its file, or the folder of its files. There is one file at least.
+// The title of a program without another one: its file, or the folder of its files. `files` is not empty.
 std::string titleOf(const std::vector<SourceFile>& files);
 
-// What is known of a rung from runs of the program.
+// Results of runs for a rung.
 struct Run {
   enum class State : uint8_t { Unasked, Ran, Never };
   State state = State::Unasked;
-  double heat = 0; // a share, 0 to 1
+  double heat = 0; // 0 to 1
   std::string label;
   std::string detail;
 };
@@ -45,44 +45,44 @@ struct Figure {
 struct Block {
   enum class Kind : uint8_t { File, Module, Section, Comment, Rung };
   Kind kind = Kind::Comment;
-  std::string text;    // Comment: its lines
-  std::string comment; // after the statement
-  std::string title;   // Module: what the section or comment before it says it is
+  std::string text;    // of a Comment: its lines
+  std::string comment; // the comment after the statement
+  std::string title;   // of a Module: the title given by the section or comment before it
   CrossReference callers;
   Place place;
-  uint32_t figure = 0; // Rung: index into Program::figures
+  uint32_t figure = 0; // of a Rung: index in Program::figures
 };
 
 struct Use {
-  uint32_t rung = 0; // its number
+  uint32_t rung = 0; // number of the rung
   bool writes = false;
   auto operator<=>(const Use&) const = default;
 };
 
 // A row of the list of names; one without a name is a comment between declarations.
 struct NameRow {
-  uint32_t id = 0; // its place among all rows with a name
+  uint32_t id = 0; // index among the rows with a name
   std::string key; // as in Named
   bool constant = false;
   bool input = false;  // the machine or the NC writes it
   bool output = false; // the machine or the NC reads it
   std::string name;
-  std::string address; // a constant's value, a message's text
+  std::string address; // for a constant its value, for a message its text
   std::string comment;
   std::vector<Use> uses; // by rung
 };
 
 struct NameTable {
   std::string title;
-  bool texts = false; // of messages and buttons, by number: they are only read
+  bool texts = false; // rows of messages and buttons, by number, which are only read
   std::vector<NameRow> rows;
 };
 
-// What runs of the program say of it as a whole.
+// Results of runs for the program as a whole.
 struct RunSummary {
-  std::string title; // empty: there were none
+  std::string title; // empty: no results
   std::vector<std::string> lines;
-  std::string heat; // what Run::heat is a share of
+  std::string heat; // of what Run::heat is a share
 };
 
 struct Program {
@@ -95,7 +95,8 @@ struct Program {
   RunSummary runs;
 };
 
-// Where the author wrote what a converted file has: its rungs in their order, its elements by where they are drawn.
+// Positions in the author's files of a converted program: rungs in their order, elements by their position in the
+// drawing.
 struct Origins {
   std::span<const SourceRange> rungs;
   std::span<const frontend::network::Origin> elements;
@@ -105,24 +106,24 @@ struct Input {
   const frontend::Dialect* dialect = nullptr;
   std::vector<FileId> files;                         // ladder text without errors
   const frontend::Analysis* analysis = nullptr;      // of `files`
-  const report::CrossReference* reference = nullptr; // of what they compile to
-  std::span<const ir::MessageText> messages;         // of the same
-  Origins origins;                                   // where `files` is a conversion
-  std::vector<FileId> authors;                       // the files that the reader knows
+  const report::CrossReference* reference = nullptr; // of the program that `files` compile to
+  std::span<const ir::MessageText> messages;         // of the same program
+  Origins origins;                                   // if `files` are a conversion
+  std::vector<FileId> authors;                       // the files that the author wrote
 };
 
 Program readProgram(const SourceManager& sources, const Input& input);
 
-// What a program consists of, as a list: files, modules and sections with the rungs in them.
+// The contents of a program as a list: files, modules and sections with their rungs.
 
 struct ContentsEntry {
   enum class Kind : uint8_t { File, Module, Section };
   Kind kind = Kind::Section;
-  uint32_t block = 0;     // index into Program::blocks: where it leads
-  uint32_t level = 0;     // from 0: how deep it is
-  std::string text;       // "spindles.lad", "Subprogram P5"
-  std::string title;      // "overrides"; of a file the module that it begins with
-  uint32_t firstRung = 0; // 0: there is none
+  uint32_t block = 0;     // target: index in Program::blocks
+  uint32_t level = 0;     // nesting depth, from 0
+  std::string text;       // such as "spindles.lad", "Subprogram P5"
+  std::string title;      // such as "overrides"; for a file, the module that it begins with
+  uint32_t firstRung = 0; // 0: no rung
   uint32_t lastRung = 0;
 };
 

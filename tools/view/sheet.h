@@ -1,5 +1,5 @@
-// A rung as a sheet of cells, ready to be laid out: its rows are the lines of the drawing in the source, what is in
-// them is in the order of the source, and all texts are what the reader is to see.
+// A rung as a sheet of cells, ready to be laid out: its rows are the lines of the drawing in the source, their contents
+// are in source order, and all texts are final.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -8,34 +8,33 @@
 
 namespace rung::view {
 
-// Where something is in the author's files: `file` is an index into Program::files, lines and columns count from 1.
-// Line 0: nowhere.
+// A position in the author's files: `file` is an index in Program::files, lines and columns count from 1. Line 0: none.
 struct Place {
   uint32_t file = 0;
   uint32_t line = 0;
   uint32_t column = 0;
 };
 
-// How much of what an element can do was seen in a run.
+// How much of an element's behaviour was seen in a run.
 enum class Seen : uint8_t { Unasked, All, Part, Nothing };
 
-// What a text leads to.
+// The target of a text.
 struct Link {
   enum class To : uint8_t { Nothing, Rung, Name };
   To to = To::Nothing;
-  uint32_t id = 0; // the number of a rung, NameRow::id
+  uint32_t id = 0; // number of the rung, or NameRow::id
 };
 
-// Rungs that have to do with something: "read in 3, 10 and 4 more".
+// References to rungs: "read in 3, 10 and 4 more".
 struct CrossReference {
   std::string_view lead;
-  std::vector<uint32_t> rungs; // numbers
-  uint32_t further = 0;        // that are left out
-  Link all;                    // where they are
+  std::vector<uint32_t> rungs; // numbers of rungs
+  uint32_t further = 0;        // number of rungs that are left out
+  Link all;                    // where all are listed
 };
 
 struct Operand {
-  std::string label; // what it is, by the instruction's row
+  std::string label; // its meaning, by the row of the instruction
   std::string name;  // as written
   std::string address;
   std::string note;
@@ -45,24 +44,24 @@ struct Operand {
 struct Cell {
   enum class Kind : uint8_t { Rail, Joint, Contact, Coil, Box };
   Kind kind = Kind::Joint;
-  uint32_t column = 0; // in the source: left and right of each other
+  uint32_t column = 0; // in the source; gives the order from left to right
   uint32_t firstRow = 0;
   uint32_t lastRow = 0;
-  bool closing = false; // nothing is on its right: it leads to the right rail
+  bool closing = false; // nothing is to its right: it leads to the right rail
   std::string mark;     // contacts and coils: "/" negated, "P" and "N" edges, "I" immediate, "S", "R"
   Operand operand;      // contacts and coils
   std::string title;    // boxes
   std::vector<std::string> pins;
   std::vector<Operand> operands;
-  Link link;              // boxes: what a call or jump leads to
-  CrossReference writers; // contacts: the rungs that write them, without their own
-  Place place;            // contacts, coils and boxes: of the element; in a command list of its command
+  Link link;              // boxes: target of a call or jump
+  CrossReference writers; // contacts: the rungs that write them, except their own
+  Place place;            // contacts, coils and boxes: position of the element; in a command list, of its command
   Seen seen = Seen::Unasked;
   std::string badge;  // what was not seen, in two words
-  std::string detail; // of the run, in full
+  std::string detail; // results of the run, in full
 };
 
-// A cell where a row meets it; a joint or a box is in all its rows.
+// The crossing of a cell and a row; a joint or a box is in several rows.
 struct Stop {
   uint32_t cell = 0;
   bool joined = false; // by a wire to the stop on its left

@@ -1,4 +1,4 @@
-// Tokens to cells (see sheet_builder.h).
+// Converts tokens to cells (see sheet_builder.h).
 #include "tools/view/sheet_builder.h"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ using frontend::ladder::TokenKind;
 
 namespace {
 
-// GSK's word before the values of a table, in any case.
+// GSK's word before the values of a table, in upper or lower case.
 bool isTableWord(std::string_view text) { return text::equalsIgnoringCase(text, "TABLE"); }
 
 // The letters in a contact or coil.
@@ -38,7 +38,7 @@ std::string markOf(const Element& element, std::string_view operand) {
 
 } // namespace
 
-// One rung on its way.
+// A rung that is being converted.
 class SheetDrawing {
 public:
   SheetDrawing(const SheetContext& context, const Drawing& drawing, SheetListener& listener)
@@ -54,7 +54,7 @@ public:
   }
 
 private:
-  // A `+` or `|`: which joint it is part of.
+  // A `+` or `|`, with the joint that contains it.
   struct Mark {
     uint32_t column = 0;
     uint32_t joint = 0;
@@ -102,7 +102,7 @@ void SheetDrawing::addMark(uint32_t line, uint32_t column, const std::vector<Mar
   joints_.push_back({line, line, kNone});
 }
 
-// Marks in one column of neighbouring lines are one joint; what is in column 0 is the rail.
+// Marks in one column of neighbouring lines form a joint; those in column 0 are the rail.
 void SheetDrawing::joinMarks() {
   static const std::vector<Mark> kNothing;
   for (uint32_t line = 0; line < drawing_.lines.size(); ++line) {
@@ -118,7 +118,7 @@ void SheetDrawing::joinMarks() {
   }
 }
 
-// kNone for a `+` that is only a piece of wire.
+// kNone for a `+` that is only part of a wire.
 uint32_t SheetDrawing::jointCell(const Mark& mark) {
   if (mark.column == 0) return 0;
   Joint& joint = joints_[mark.joint];
@@ -135,7 +135,7 @@ void SheetDrawing::addRow(uint32_t line) {
   Row row;
   size_t mark = 0;
   bool joined = false;
-  uint32_t end = kNone; // of the token on the left
+  uint32_t end = kNone; // end of the token to the left
   for (const Token& token : drawing_.tokensOf(drawing_.lines[line])) {
     joined = joined && token.begin == end;
     end = token.end;
@@ -250,7 +250,7 @@ void SheetDrawing::addBox(Cell& cell, const Element& element) {
     const frontend::TargetUse* asked = context_.names.targetAt(word);
     const Link target = asked == nullptr ? Link{} : listener_.onTarget(*asked, cell.firstRow);
     if (target.to != Link::To::Nothing) cell.link = operand.link = target;
-    // Values of a table follow each other.
+    // Values of a table are put on one line.
     if (table && operand.address.empty() && cell.operands.back().name.size() < 28 &&
         cell.operands.back().address.empty()) {
       std::string& line = cell.operands.back().name;
@@ -261,7 +261,7 @@ void SheetDrawing::addBox(Cell& cell, const Element& element) {
   }
 }
 
-// A coil or box with nothing on its right in any of its rows leads to the right rail.
+// A coil or box with nothing to its right in any of its rows leads to the right rail.
 void SheetDrawing::findClosing() {
   std::vector<uint32_t> lastIn(sheet_.cells.size(), 0);
   for (const Row& row : sheet_.rows)

@@ -1,4 +1,4 @@
-// From the drawing of a rung in its source to a sheet of cells, and what its operands name.
+// Builds a sheet of cells from the drawing of a rung in its source and from the meaning of its operands.
 #pragma once
 #include <functional>
 #include <string>
@@ -16,11 +16,11 @@ struct OperandUse {
   std::string_view operand; // as written
   bool writes = false;
   bool coil = false;
-  uint32_t row = 0; // of its element
+  uint32_t row = 0; // row of its element
 };
 
-// What the rungs of a program have in common hears of a sheet while it is built. Each gives the id of what an operand
-// leads to; it is settled when all rungs are read.
+// Receives the uses in a sheet while it is built, for the program's lists. Each function returns the link of an
+// operand; its target is settled when all rungs have been read.
 class SheetListener {
 public:
   virtual ~SheetListener() = default;
@@ -35,7 +35,7 @@ struct SheetContext {
   frontend::ladder::FindBox findBox;
   Names& names;
   const Texts& texts;
-  std::function<Place(SourcePos drawn)> placeOf; // of an element
+  std::function<Place(SourcePos drawn)> placeOf; // position of an element in the author's files
   bool hasTables = false;                        // boxes may have values after the word TABLE
 };
 

@@ -1,5 +1,5 @@
-// The colours of drawings and pages. A picture of its own has those of paper; a page names them, so that it can
-// have others in the dark.
+// The colours of drawings and pages. A separate picture has the colours for paper; a page refers to them by name, so
+// that it can have others in dark mode.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -17,15 +17,15 @@ enum class Colour : uint8_t {
   Soft, // addresses, labels, places
   Link,
   Paper,
-  Head,  // the bar of a box, the heads of tables
-  Line,  // rulings
-  Found, // what a link leads to
-  Hit,   // what a search found
-  Now,   // of them the one that is shown
+  Head,  // title bars of boxes, heads of tables
+  Line,  // rules
+  Found, // the target of a link
+  Hit,   // results of a search
+  Now,   // the current result
   Warn,  // what never happened
   Part,  // what happened in part
   Good,
-  Heat1, // rungs by what they take, from the least
+  Heat1, // rungs by their share, from the least
   Heat2,
   Heat3,
   Heat4,
@@ -34,7 +34,7 @@ enum class Colour : uint8_t {
 inline constexpr size_t kColours = 18;
 
 struct ColourInfo {
-  std::string_view name; // of the property of a page: --ink
+  std::string_view name; // of the CSS property of a page: --ink
   std::string_view light;
   std::string_view dark;
 };
@@ -62,8 +62,8 @@ inline constexpr std::array<ColourInfo, kColours> kColourInfos = {{
 
 constexpr const ColourInfo& infoOf(Colour colour) { return kColourInfos[static_cast<size_t>(colour)]; }
 
-// How much room a text takes. The fonts of the reader are not known, so widths are those of wide fonts (DejaVu): in
-// narrower ones a text only leaves more room.
+// The space that a text takes. The reader's fonts are not known, so widths are those of wide fonts (DejaVu): in
+// narrower ones a text only leaves more space.
 
 enum class Style : uint8_t {
   Name,    // above a contact or coil, in boxes: a symbol or, without one, the address
@@ -72,21 +72,21 @@ enum class Style : uint8_t {
   Mark,    // the letter in a contact or coil
   Title,   // the mnemonic of a box
   Pin,     // in a box, beside its wire
-  Label,   // in a box: what an operand is
+  Label,   // in a box: the meaning of an operand
   Remark,  // right of the right rail
-  Uses,    // there: the rungs that use a coil
-  Caption, // headings, in the order of their weight
+  Uses,    // right of the right rail: the rungs that use a coil
+  Caption, // headings, by weight
   Module,
   Section,
   Comment,
   Place, // file and line
-  Badge, // at an element, a rung: what a run of the program says of it
+  Badge, // results of a run, at an element or a rung
 };
 inline constexpr size_t kStyles = 15;
 
 struct StyleInfo {
   std::string_view cssClass;
-  uint32_t size; // of the font, in pixels
+  uint32_t size; // size of the font in pixels
   bool mono;
   bool bold;
   bool italic;
@@ -96,13 +96,13 @@ const StyleInfo& infoOf(Style style);
 
 // In pixels, rounded up.
 int widthOf(std::string_view text, Style style);
-// The distance of two lines.
+// The distance of two lines, in pixels.
 int lineHeight(Style style);
 
-// The text in lines of at most `width` pixels; a longer word stays whole. No line for a blank text.
+// The text in lines of at most `width` pixels; a longer word is not divided. No line for a blank text.
 std::vector<std::string> wrap(std::string_view text, Style style, int width);
 
-// A text with parts that lead somewhere.
+// A text with parts that are links.
 struct LinkedText {
   struct Part {
     size_t begin = 0;
@@ -114,7 +114,7 @@ struct LinkedText {
 
   void add(std::string_view more, Link link = {});
 };
-// As wrap, between `words`.
+// Like wrap above, with breaks between `words`.
 std::vector<LinkedText> wrap(const std::vector<LinkedText>& words, Style style, int width);
 
 } // namespace rung::view

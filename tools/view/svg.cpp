@@ -1,4 +1,4 @@
-// Shapes to SVG (see svg.h).
+// Converts shapes to SVG (see svg.h).
 #include "tools/view/svg.h"
 
 #include <algorithm>
@@ -11,8 +11,8 @@ namespace rung::view {
 namespace {
 
 constexpr int kLeastRail = 560;
-constexpr int kMostRail = 880; // wider drawings are cut
-constexpr int kIndent = 24;    // of rungs below their captions
+constexpr int kMostRail = 880; // x of the right rail; wider drawings are cut
+constexpr int kIndent = 24;    // indent of rungs below their captions
 
 void appendRails(std::string& out, const Picture& picture) {
   put(out, R"(<path class="e" d="M{0} {1}v{3}M{2} {1}v{3}"/>)", kLeft, picture.top, picture.rail, picture.height);
@@ -102,7 +102,7 @@ void appendTexts(std::string& out, const Picture& picture, bool onPage) {
             groups[anchor][style]);
 }
 
-// One drawing of everything, from top to bottom.
+// Draws the whole program from top to bottom.
 class Poster {
 public:
   explicit Poster(const Program& program) : program_(program), rail_(commonRail(program)) {
@@ -142,7 +142,7 @@ void Poster::lines(Style style, int x, std::string_view whole) {
   }
 }
 
-// A bar left of the rung.
+// A bar to the left of the rung.
 void Poster::heat(const Run& run, int top) {
   const int step = heatStep(run, hottest_);
   const bool never = run.state == Run::State::Never;

@@ -13,8 +13,8 @@ inline constexpr uint32_t kResultFlags = 1000;
 inline constexpr uint32_t kRemainder = 1002;
 inline constexpr uint32_t kResultBytes = 6;
 
-// What is kept through power-off: man. l.732-790. Presets are all of T and the first two bytes of every counter in C
-// (P8, P9).
+// The areas and what is retained through power-off: man. l.732-790. Presets are all of T and the first two bytes of
+// every counter in C (P8, P9).
 inline constexpr std::array<network::AreaInfo, 10> kAreas = {{
     {.letter = 'X', .bytes = 128, .use = network::AreaUse::Input, .doc = "machine to PLC"},
     {.letter = 'Y', .bytes = 128, .use = network::AreaUse::Output, .doc = "PLC to machine"},

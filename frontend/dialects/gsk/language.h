@@ -1,4 +1,4 @@
-// The language of the GSK25i PLC, as frontend/network reads, checks and converts it.
+// The language of the GSK25i PLC, used by frontend/network to read, check and convert its programs.
 #pragma once
 #include "frontend/network/language.h"
 

@@ -1,5 +1,5 @@
-// What the reference page says beyond the instructions, from the same tables that the compiler and the simulated CNC
-// read.
+// Sections of the reference page besides the instructions, from the same tables that the compiler and the simulated CNC
+// use.
 #pragma once
 #include "frontend/table/reference.h"
 

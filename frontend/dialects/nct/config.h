@@ -1,4 +1,4 @@
-// The areas of the memory (man. l.281-307) and what a program's configuration says about them and about time.
+// The areas of the memory (man. l.281-307) and the program's configuration of them and of time.
 #pragma once
 #include <cstdint>
 
@@ -8,7 +8,7 @@ namespace rung::frontend::nct {
 
 inline constexpr uint32_t kWords = 10000;   // addresses 0000 to 9999, l.283
 inline constexpr uint32_t kFlagsWord = 0;   // FLAGS, l.723
-inline constexpr uint32_t kReserved = 1;    // reads 0, takes nothing
+inline constexpr uint32_t kReserved = 1;    // reads 0, cannot be written
 inline constexpr uint32_t kFirstNcWord = 2; // the time-slice memory begins here, l.544
 
 // The limits depend on the control and the manual does not print them (l.293); these are the project's defaults.
@@ -22,7 +22,7 @@ struct Config {
   bool runsAtWholeMs() const { return periodUs % 1000 == 0 && timesliceUs % 1000 == 0; }
 };
 
-// Reports values that make no sense.
+// Reports invalid values.
 Config readConfig(const frontend::CompileOptions& options, Diagnostics& diagnostics);
 
 } // namespace rung::frontend::nct

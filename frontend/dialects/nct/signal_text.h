@@ -1,4 +1,4 @@
-// Signals and other predefined names in words, for the reference and for `rungc explain`.
+// Texts about signals and other predefined names, for the reference and for `rungc explain`.
 #pragma once
 #include <string>
 #include <string_view>
@@ -8,10 +8,10 @@
 
 namespace rung::frontend::nct {
 
-// What an index of so many words leads to from the signal's place, where that is another signal; else null.
+// The signal at an index of `words` words from the signal's place, if that is another signal; otherwise null.
 const nc::Signal* signalAfter(const nc::Signal& signal, int64_t words);
 std::string_view typeText(const nc::Signal& signal); // "bit", "double word", "double"
-std::string indexText(const nc::Signal& signal);     // "#0 to #31 (axis)"; "-" when there is one only
+std::string indexText(const nc::Signal& signal);     // "#0 to #31 (axis)"; "-" if there is only one
 std::string placeText(const nc::Signal& signal);     // "MKBTNS0.05"; "-" for words and bits of words without name
 std::string parameterText(const nc::nct::ScopeParameter& parameter);
 

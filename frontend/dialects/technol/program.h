@@ -1,5 +1,5 @@
-// A program as it has been read: its text in statements and units, and what its declarations take in memory. The reader
-// makes both; for check and lowering they are constant.
+// A program that has been read: its text in statements and units, and the memory of its declarations. The reader makes
+// both; for check and lowering they are constant.
 #pragma once
 
 #include <deque>
@@ -12,7 +12,8 @@
 
 namespace rung::frontend::technol {
 
-// Procedures that the control calls: when a message comes up (man. l.1609), at its commands and events (l.1614-1644).
+// Procedures that the control calls: when a message is generated (man. l.1609), at its commands and events
+// (l.1614-1644).
 inline constexpr std::string_view kOnMessage = "_ON_ESET";
 inline constexpr std::string_view kOnEvents[] = {"_ON_CMD", "_ON_EVENT"};
 
@@ -23,7 +24,7 @@ struct SourceProgram {
   const SourceManager& sources;
   std::vector<SourceFile> files;
   std::vector<Token> tokens;
-  std::deque<std::string> madeTexts; // of tokens that no source holds
+  std::deque<std::string> madeTexts; // texts of tokens that are not in a source
   std::vector<Statement> statements;
   std::vector<Label> labels;
   std::vector<Unit> units;
@@ -37,48 +38,48 @@ struct SourceProgram {
   }
   // The nearest unit that is not a timed block.
   UnitId owner(UnitId unit) const;
-  // The procedure that the unit is or lies in; kNone where that is none.
+  // The procedure that is the unit or contains it; kNone if none does.
   uint32_t procedureOf(UnitId unit) const;
   bool inMechanism(UnitId unit) const;
   // Whether statements that wait are allowed in this unit (man. l.2166-2171).
   bool mayWait(UnitId unit) const;
-  // A bit for each file that has such a statement.
+  // A bit for each file with such a statement.
   int64_t filesWith(bool SourceFile::* statement) const;
-  // By its key; kNone where there is none.
+  // By its key; kNone if there is none.
   uint32_t procedureNamed(std::string_view name) const;
 };
 
-// A declaration that takes memory. Addresses are given when all constants are known, in the order of the source over
-// all files, without gaps (man. l.105).
+// A declaration that takes memory. Addresses are assigned when all constants are known, in source order over all files,
+// without gaps (man. l.105).
 struct DataItem {
   Role role = Role::Ds; // MemberSize: an instance of a structure
   bool local = false;   // DATA_LOCAL
   uint32_t statement = 0;
-  uint32_t cell = kNone;      // symbol
+  uint32_t cell = kNone;      // index of its symbol
   std::vector<uint32_t> also; // further symbols of the same memory
-  uint32_t firstBit = kNone;  // in Declarations::itemBits, eight of them; Dfm
+  uint32_t firstBit = kNone;  // Dfm: index in Declarations::itemBits of the first of eight
   std::vector<uint8_t> image; // of an instance
-  uint32_t byte = 0;          // in the data, when it is placed; texts on other memory take none
+  uint32_t byte = 0;          // offset in the data, once it is placed; texts over other memory take none
   uint32_t bytes = 0;
 };
 
-// A variable that MAP_* or DEF_* declares (man. ch. 10, 27), in a space of its own; a bit has a byte of its own.
+// A variable that MAP_* or DEF_* declares (man. ch. 10, 27), in a separate space; a bit takes a byte.
 struct Exchanged {
   nc::ExchangeKind kind = nc::ExchangeKind::MapIn;
   nc::ExchangeType type = nc::ExchangeType::Bit;
   uint32_t statement = 0;
   uint32_t symbol = kNone;
-  uint32_t count = 1; // elements; bytes of a text
+  uint32_t count = 1; // number of elements, or bytes of a text
 };
 
-// The memory of a program. The names that lead to it are in the Symbols.
+// The memory of a program. The names of its parts are in the Symbols.
 struct Declarations {
   std::vector<DataItem> items;
   std::vector<uint32_t> itemBits; // symbols, kNone for an unnamed bit
   std::vector<StructureType> structures;
   std::unordered_set<std::string> structureNames; // keys
   std::vector<Exchanged> exchanged;
-  bool exchangesFast = false; // FAST or FASTEST is asked for
+  bool exchangesFast = false; // FAST or FASTEST is requested
   std::vector<ir::Init> inits;
   uint32_t dataBytes = 0;
   uint32_t exchangedBytes = 0;
@@ -88,18 +89,18 @@ struct Declarations {
   uint32_t bytesOf(ir::SpaceId space) const;
 };
 
-// Splits at the commas outside brackets, those of structures too; an operand may be empty. No tokens: no
-// operands.
+// Splits at commas outside of brackets, including those of structures; an operand may be empty. No tokens: no operands.
 std::vector<std::span<const Token>> splitOperands(std::span<const Token> tokens);
 
-// The source range of tokens; `otherwise` when there are none. Of tokens that a macro put together only the first.
+// The source range of tokens; `otherwise` if there are none. For tokens that a macro made, only that of the first.
 SourceRange rangeOf(const SourceManager& sources, std::span<const Token> tokens, SourceRange otherwise);
 
-// Tokens as written, one blank where there are some.
+// Tokens as written, with single blanks.
 std::string spelled(std::span<const Token> tokens);
-// Whether a declared name has a sign before it, as designations of devices have: -K1. It is reported.
+// Whether a declared name is preceded by a sign, as in designations of devices: -K1. It is reported.
 bool takeSign(std::span<const Token> tokens, Diagnostics& diagnostics);
-// Tokens that are one word, 1A or A-B, where a name should be: that is a bad name, all else no name at all.
+// Whether tokens where a name is expected form one word, such as 1A or A-B: then the name is invalid, otherwise it is
+// missing.
 bool isOneWord(std::span<const Token> tokens);
 
 } // namespace rung::frontend::technol

@@ -11,7 +11,8 @@ namespace rung::frontend::technol {
 
 // Signals of the CNC-PLC interface by group, predefined constants, the listing, warnings.
 void addReference(ReferencePage& page);
-// A signal, a member of a structure (TIME_INFOS.HOUR), a predefined constant, of any case; "" when it is none.
+// The text about a signal, a member of a structure (TIME_INFOS.HOUR) or a predefined constant, in upper or lower case;
+// "" for any other name.
 std::string explainWord(std::string_view name);
 
 } // namespace rung::frontend::technol

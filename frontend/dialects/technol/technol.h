@@ -1,4 +1,4 @@
-// The dialect TECHNOL (PLC836), the mnemonic language of the MEFI CNC8x9 controls; README.md says how its parts fit.
+// The dialect TECHNOL (PLC836), the mnemonic language of the MEFI CNC8x9 controls; README.md describes its parts.
 #pragma once
 
 #include "frontend/dialects/dialect.h"

@@ -1,5 +1,5 @@
-// The drawing of one rung as tokens, line by line; shared by the scanner, the wiring, and who
-// draws a rung again (readDrawing); all else is internal to frontend/ladder/text.
+// The drawing of one rung as tokens, line by line; shared by the scanner, the wiring, and code that draws a rung again
+// (readDrawing); all else is internal to frontend/ladder/text.
 #pragma once
 
 #include <cstdint>
@@ -35,15 +35,15 @@ struct DrawnLine {
   Slice tokens;
 };
 
-/// What the scanner finds, in the order of the text. Its vectors are reused from rung to rung.
+/// The result of the scanner, in text order. Its vectors are reused from rung to rung.
 struct Drawing {
   std::vector<DrawnLine> lines;
   std::vector<Token> tokens;
-  std::vector<Element> elements; ///< pin lines included; pins and outputs are not filled in yet
-  std::vector<uint32_t> headOf;  ///< per element: the box whose pin line it is, kNone for an element of its own
+  std::vector<Element> elements; ///< including pin lines; pins and outputs are not filled in yet
+  std::vector<uint32_t> headOf;  ///< per element: the box whose pin line it is, kNone for a separate element
   std::vector<uint32_t> nextPin; ///< per element: the next pin line of the same box, or kNone
   std::vector<Word> operands;
-  std::vector<Comment> comments; ///< after its lines; with those between them where the parser adds them
+  std::vector<Comment> comments; ///< comments after its lines, and those between them if the parser adds them
   bool bad = false;              ///< an error was reported
 
   void clear();
@@ -59,30 +59,30 @@ struct Drawing {
 /// The comment of a line from its ';' on.
 Comment commentFrom(const SourceLine& line, size_t begin);
 
-/// Whether a line that begins with this character, after blanks, is one of a drawing.
+/// Whether a line that begins with this character, after blanks, belongs to a drawing.
 constexpr bool beginsDrawing(char c) { return std::string_view("|+-[({").find(c) != std::string_view::npos; }
 
-/// The lines of a drawing without errors in new columns: elements joined by `--`, branches as long as the longest
-/// one that joins them. Nothing where that takes too long to find.
+/// The lines of a drawing without errors in new columns: elements connected by `--`, branches as long as the longest
+/// one between the same joints. Nothing if that takes too long to compute.
 std::optional<std::vector<std::string>> layOut(const Drawing& drawing);
 
-/// The drawing of a rung of this file that is not bad, once more, with its pin lines found.
+/// Scans the drawing of a correct rung of this file again, with its pin lines.
 Drawing readDrawing(const SourceManager& sources, FileId file, const Rung& rung, FindBox findBox);
 
-/// Adds a line to the drawing. A mistake sets drawing.bad; what could not be read, an element or the rest of the line,
-/// is an Error.
+/// Adds a line to the drawing. A mistake sets drawing.bad; the unreadable part, an element or the rest of the line,
+/// becomes an Error.
 void scanDrawingLine(const SourceLine& line, Drawing& drawing, Diagnostics& diagnostics);
 
-/// Adds a line that cannot be read, which was reported, as an Error; sets drawing.bad.
+/// Adds an unreadable line, which was reported, as an Error; sets drawing.bad.
 void addUnreadLine(const SourceLine& line, Drawing& drawing);
 
-/// Takes out what is drawn of a right rail.
+/// Removes a drawn right rail.
 void dropRightRail(Drawing& drawing);
 
 /// Finds the pin lines of boxes: fills headOf and nextPin.
 void groupPins(Drawing& drawing, FindBox findBox, Diagnostics& diagnostics);
 
-/// Joins the wires: fills the rung's elements (in the order of the text), pins and nets, also of a bad drawing.
+/// Connects the wires: fills the rung's elements (in text order), pins and nets, also for a bad drawing.
 void wireUp(Drawing& drawing, Rung& rung, Diagnostics& diagnostics);
 
 /// Offset of the first character in [begin, end) that is not printable ASCII, or end.

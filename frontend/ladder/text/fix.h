@@ -1,4 +1,4 @@
-// Fixes of words in drawings, whose columns must stay.
+// Fixes of words in drawings that keep the columns.
 #pragma once
 #include <span>
 #include <string_view>
@@ -8,15 +8,15 @@
 
 namespace rung::frontend::ladder {
 
-/// "did you mean WORD?" and the fix that puts it into the place of `range`, as DiagBuilder::meant. In a drawing the
-/// wire on the right of the element becomes longer or shorter, so that what follows keeps its column; without room
-/// for that the fix is left out.
+/// Adds "did you mean WORD?" and the fix that replaces `range`, as DiagBuilder::meant. In a drawing the wire to the
+/// right of the element becomes longer or shorter, so that later elements keep their columns; without room for that
+/// there is no fix.
 void meant(DiagBuilder& report, const SourceManager& sources, SourceRange range, std::string_view word);
-/// That fix alone, where a note says already what is meant.
+/// Adds only that fix, if a note already says what is meant.
 void fix(DiagBuilder& report, const SourceManager& sources, SourceRange range, std::string_view word);
 
-/// The same of a word that may be misspelt, and is at all these places, in their order: with a fix of all of them, and
-/// only where nothing else can have been meant.
+/// The same for a possibly misspelt word that occurs at all these positions, in this order: with a fix of all of them,
+/// and only if nothing else can have been meant.
 void suggest(DiagBuilder& report, const SourceManager& sources, std::span<const SourceRange> places,
              const text::Likely& likely);
 inline void suggest(DiagBuilder& report, const SourceManager& sources, SourceRange range, const text::Likely& likely) {

@@ -1,4 +1,4 @@
-// Ladder text in its one style. What is drawn on a line stays on it, in its order; the columns are new.
+// Formats ladder text. Elements on one line stay on it, in their order; the columns are new.
 #pragma once
 #include <optional>
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace rung::frontend::ladder {
 
-/// A file laid out anew; nothing where it cannot be read, which is reported. All comments are kept, and what is read
-/// from the result is what is read from the file. A rung that no new columns are found for stays as it is drawn.
+/// A formatted file; nothing if it cannot be read, which is reported. All comments are kept, and the result has the
+/// same meaning as the file. A rung for which no new columns are found is left as drawn.
 std::optional<std::string> format(const SourceManager& sources, FileId file, FindBox findBox, Diagnostics& diagnostics);
 
 } // namespace rung::frontend::ladder

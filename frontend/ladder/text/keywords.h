@@ -1,4 +1,4 @@
-// The words that begin a statement of ladder text, and what they mean to its author; and those of other languages.
+// The words that begin a statement of ladder text, and their meaning for authors; and those of other languages.
 #pragma once
 #include <string_view>
 

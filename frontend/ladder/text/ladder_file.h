@@ -1,5 +1,5 @@
-// Ladder text as data: what a `*.lad` file says, whatever the dialect. Its drawings are rungs (frontend/ladder/rung.h),
-// whose elements are in the order of the text, the upper line first, then the left one. All texts are views into the
+// Ladder text as data: the contents of a `*.lad` file of any dialect. Its drawings are rungs (frontend/ladder/rung.h),
+// whose elements are in text order, the upper line first, then the left one. All texts are views into the
 // SourceManager's buffers.
 #pragma once
 
@@ -22,8 +22,8 @@ enum class DeclarationKind : uint8_t { Symbol, Const, Message, Button };
 /// `symbol NAME VALUE`, `const NAME VALUE`, `message NUMBER "text"`, `button NUMBER "text"`.
 struct Declaration {
   DeclarationKind kind = DeclarationKind::Symbol;
-  Word name;  ///< the number of a message or button
-  Word value; ///< quoted for messages and buttons, never for the others
+  Word name;  ///< for a message or button, its number
+  Word value; ///< quoted for messages and buttons, never for others
   std::string_view comment;
   SourceRange range;
 };
@@ -36,39 +36,39 @@ struct Section {
 /// Comment and Blank: lines outside of drawings.
 enum class StatementKind : uint8_t { Dialect, Module, Declaration, Section, Rung, Comment, Blank };
 
-/// What a file has, in its order; index is the place in the vector of their kind, 0 where there is none.
+/// The contents of a file, in order; index is that in the vector of their kind, 0 if there is none.
 struct Statement {
   StatementKind kind;
   uint32_t index = 0;
   uint32_t line = 0;
-  std::string_view comment = {}; ///< after it, on its line
+  std::string_view comment = {}; ///< the comment on the same line
 };
 
 struct LadderFile {
   FileId file;
-  std::string_view dialect; ///< empty when the statement is missing (reported)
+  std::string_view dialect; ///< empty if the statement is missing (reported)
   SourceRange dialectRange;
   std::vector<Statement> statements;
   std::vector<Module> modules;
   std::vector<Declaration> declarations;
-  std::vector<Word> badNames; ///< of declarations that were reported: uses of them should stay silent
+  std::vector<Word> badNames; ///< names of declarations that were reported: uses of them should not be reported
   std::vector<Section> sections;
   std::vector<Rung> rungs;
-  std::vector<Comment> comments; ///< those that are statements
+  std::vector<Comment> comments; ///< comments that are statements
 };
 
-/// The row of a box's mnemonic in the dialect's table; null for one that the dialect does not have. The drawing alone
-/// cannot distinguish `{R }` below `{CNT …}`, a pin, from `{RET}` below `{MOV …}`, another box.
+/// The row of a box's mnemonic in the dialect's table; null if the dialect has none. The drawing alone cannot
+/// distinguish `{R }` below `{CNT …}`, a pin, from `{RET}` below `{MOV …}`, another box.
 using FindBox = const frontend::InstructionInfo* (*)(std::string_view mnemonic);
 
 /// Parses a file. Mistakes are reported, and parsing continues with the next statement. Without findBox (or for a
-/// mnemonic that it does not know) every box of one word that is exactly below a box is a pin of that box.
+/// mnemonic unknown to it) every box of one word that is exactly below a box is a pin of that box.
 LadderFile parseLadder(const SourceManager& sources, FileId file, Diagnostics& diagnostics, FindBox findBox = nullptr);
 
-/// The first word of each box in the text of an Error: what it might have been.
+/// The first word of each box in the text of an Error, which it might have been.
 std::vector<std::string_view> boxWords(std::string_view drawing);
 
-/// The name after `dialect`, when that is the first statement of the text; empty otherwise. Reports nothing.
+/// The name after `dialect`, if that is the first statement of the text; otherwise empty. Reports nothing.
 std::string_view peekDialect(const SourceManager& sources, FileId file);
 
 } // namespace rung::frontend::ladder

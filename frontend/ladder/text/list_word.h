@@ -1,4 +1,5 @@
-// Words of instruction lists (IEC 61131, GSK, Mitsubishi, FANUC, Siemens, Rockwell), and how a drawing says the same.
+// Words of instruction lists (IEC 61131, GSK, Mitsubishi, FANUC, Siemens, Rockwell), and their equivalents in a
+// drawing.
 #pragma once
 #include <span>
 #include <string_view>
@@ -7,10 +8,10 @@
 
 namespace rung::frontend::ladder {
 
-/// "a closed contact [/x] in series" for ANDN, in any case of letters; empty for a word that is none.
+/// "a closed contact [/x] in series" for ANDN, ignoring case; empty for other words.
 std::string_view drawnFor(std::string_view listWord);
 
-/// Whether the words are a line of an instruction list, perhaps with its number before it.
+/// Whether the words are a line of an instruction list, possibly with its line number.
 bool isListLine(std::span<const Word> words);
 
 inline constexpr std::string_view kListNote =

@@ -1,5 +1,5 @@
-// Command lists and ladder text of a language, each to the other, nothing lost (docs/dialects/gsk.md says where a
-// comment goes that has no place of its own).
+// Converts between command lists and ladder text of a language, without loss (docs/dialects/gsk.md says where a comment
+// goes that has no position of its own).
 #pragma once
 #include <optional>
 #include <span>
@@ -10,8 +10,8 @@
 
 namespace rung::frontend::network {
 
-// The files of one program without errors in the form `to`. Nothing when a network is too large to be drawn; that
-// is in `diagnostics`.
+// The files of one program without errors in the form `to`. Nothing if a network is too large to be drawn; that is
+// reported.
 std::optional<std::string> convertProgram(const Language& language, SourceManager& sources,
                                           std::span<const FileId> files, Form to, Diagnostics& diagnostics);
 
@@ -21,15 +21,16 @@ struct Origin {
   SourcePos written;
 };
 
-// A program as ladder text alone.
+// A program as ladder text only.
 struct LadderForm {
   std::vector<FileId> files;
-  // Of a conversion: where the rungs of its one file, and their contacts, coils and boxes, are in the author's files.
+  // For a conversion: the positions in the author's files of the rungs of its one file, and of their contacts, coils
+  // and boxes.
   std::vector<SourceRange> networks;
   std::vector<Origin> elements; // by `drawn`
 };
 
-// Of such a program: its own files, or what they are converted to when there is a list among them.
+// For a program without errors: its own files, or their conversion if there is a list among them.
 std::optional<LadderForm> ladderForm(const Language& language, SourceManager& sources, std::span<const FileId> files,
                                      Diagnostics& diagnostics);
 

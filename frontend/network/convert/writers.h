@@ -10,12 +10,12 @@
 
 namespace rung::frontend::network {
 
-// A program without errors, with everything that its author wrote. Both forms are read to it and written from it.
+// A program without errors, with everything that its author wrote. Both forms are read into it and written from it.
 
 struct SourceProgram {
   const SourceManager& sources;
   Program program;
-  Gap preamble; // up to the last declaration before all networks; with the one Dialect
+  Gap preamble; // up to the last declaration before all networks; includes the only Dialect
   Gap tail;     // after all networks
 };
 
@@ -28,11 +28,11 @@ std::string writeLadder(const Language& language, const SourceProgram& source);
 
 enum class Form : uint8_t { List, Ladder };
 
-inline constexpr size_t kCommentColumn = 18; // of a list
+inline constexpr size_t kCommentColumn = 18; // in a list
 // A command of a list with its operand, which may be empty.
 std::string commandText(const Language& language, Command command, std::string_view operand);
 
-// The text of a program, laid out as `rungc format` does.
+// The text of a program, formatted as by `rungc format`.
 class GapPage {
 public:
   GapPage(const Language& language, Form form)
@@ -54,11 +54,11 @@ private:
   Page lines_;
 };
 
-// Blank lines at both ends gone, others single, sections apart.
+// Removes blank lines at both ends, merges others, and separates sections.
 Gap tidy(const Gap& gap);
-// `gap` with every comment that would be taken for the title, but is not, made none by a further ';'.
+// `gap`, in which every comment that would be mistaken for the title gets another ';'.
 Gap protect(Gap gap, std::string_view title);
-// The comment that the rule of titles finds; nullopt where there is none.
+// The index of the comment that the rule of titles finds; nullopt if there is none.
 std::optional<size_t> titleIn(const Gap& gap);
 
 } // namespace rung::frontend::network

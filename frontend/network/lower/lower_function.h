@@ -1,5 +1,5 @@
-// What a lowering function of a row gets: conditions as values, checked parameters, and the few things that functions
-// do with them. It says what the output bit W is; coils are not its business.
+// The context of a row's lowering function: conditions as values, checked parameters, and operations that several
+// functions use. The function determines the output bit W; coils are lowered separately.
 #pragma once
 #include <functional>
 #include <span>
@@ -21,7 +21,7 @@ inline Address plus(Address address, uint32_t bytes) {
   address.byte += bytes;
   return address;
 }
-// Whether a number is in a set of bits by their numbers; one above 63 is in none.
+// Whether a number is in a set of bits by their numbers; one above 63 never is.
 ir::ValueId isIn(ir::RungBuilder& b, ir::ValueId number, uint64_t set);
 
 class Lowering {
@@ -37,51 +37,52 @@ public:
   const Param& param(size_t i) const { return function.params[i]; }
   ir::ValueId condition(size_t i) const { return conditions_[i]; }
   ir::ValueId act() const { return conditions_.back(); }
-  // The type of as many bytes as the format says.
+  // The integer type with the number of bytes of the format.
   ir::Type dataType() const { return ir::intOfBytes(function.length); }
 
   ir::ValueId load(ir::Type type, const Address& address);
   void store(const Address& address, ir::ValueId value);
-  // `legal` bytes of the `bytes` from `address` may be the first of an element.
+  // `legal` of the `bytes` from `address` may be the first of an element.
   ir::Window window(const Address& address, uint32_t bytes, uint32_t legal) const;
   // A parameter that is an address or a constant.
   ir::ValueId operand(size_t i, ir::Type type);
 
-  // State of this instruction; all calls with one role give the same slot, also from the other level.
+  // State of this instruction; all calls with the same role return the same slot, also on the other level.
   ir::SlotId slot(std::string_view role, ir::Type type, int64_t init = 0);
   // Microseconds between the beginnings of this and the last run of the level.
   ir::ValueId scanTime();
-  // Every run of the level takes this network, and once.
+  // Whether every run of the level executes this network exactly once.
   bool onceEachRun() const;
   // Microseconds since the last run of the level began.
   ir::ValueId sinceLastRun();
   // State that all instructions of the program share.
   ir::SlotId shared(const std::string& key, ir::Type type);
-  // Remembers the current run of each level; how many runs ago that was, on this level (signed).
+  // markRun records the current run of each level; runsSinceMark is the number of runs since then, on this level
+  // (signed).
   void markRun();
   ir::ValueId runsSinceMark();
   ir::ServiceId service(const nc::ServiceRow& row);
-  // A space that the host writes or reads by its name; `legal` of its bytes may be the first of an element.
+  // A space that the host accesses by its name; `legal` of its bytes may be the first of an element.
   ir::Window hidden(const std::string& name, uint32_t bytes, uint32_t legal);
   // Constant bytes in a hidden space; `legal` of them may be the first of an element.
   ir::Window constants(std::string_view bytes, uint32_t legal);
 
   void setOutput(ir::ValueId w) { output_ = w; }
   ir::ValueId output() const { return output_; }
-  // The latched output of §6.3: with `execute` W is what `body` gives, else it keeps its value; `reset` (may be
-  // invalid) makes it 0 and wins (P15, P17).
+  // The latched output of §6.3: with `execute` W is the result of `body`, otherwise it keeps its value; `reset` (may be
+  // invalid) makes it 0 and takes precedence (P15, P17).
   void latchedOutput(ir::ValueId execute, ir::ValueId reset, const std::function<ir::ValueId()>& body);
-  // W as the last scan left it, for a `body` that changes nothing.
+  // W after the last scan, for a `body` that changes nothing.
   ir::ValueId oldOutput();
-  // What most functions do with RST and ACT, their last two conditions.
+  // The usual handling of RST and ACT, the last two conditions of most functions.
   void resettable(const std::function<ir::ValueId()>& body);
 
   // Control: rungs and routines of this level.
   uint32_t targetRung() const;
   ir::RoutineId callee() const;
-  // What COM found, for the networks up to COME.
+  // The result of COM, for the networks up to COME.
   ir::SlotId commonLine();
-  // Where a JMPC leads, plus 1; 0: none is under way.
+  // The target of a pending JMPC, plus 1; 0: none is pending.
   ir::SlotId leaveTarget();
 
 private:

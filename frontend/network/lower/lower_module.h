@@ -1,5 +1,5 @@
 // Lowering of a program to a module: spaces for the areas, a routine for each unit on each level, a task for each
-// level, and the scan as slots (P3). The dialect adds what its control has besides.
+// level, and the scan as slots (P3). The dialect adds the rest of its control.
 #pragma once
 #include <memory>
 #include <span>
@@ -18,21 +18,21 @@ namespace rung::frontend::network {
 struct Execution {
   uint32_t slotUs = 0;           // from one run of the levels to the next
   uint32_t budget = 0;           // steps of one run (P6)
-  std::string_view overrunFault; // of a run that takes more
-  Address results;               // the first result register: each level has a set of its own (P4)
-  uint32_t resultBytes = 0;      // how many they are
+  std::string_view overrunFault; // fault of a run that takes more
+  Address results;               // the first result register: each level has a separate set (P4)
+  uint32_t resultBytes = 0;      // their number
 };
 
-// Units that several levels run are lowered for each and share their slots.
+// Units that several levels run are lowered for each level and share their slots.
 struct LevelState {
-  uint32_t level = 0;                  // its place in the language, and of its unit in the program
-  std::vector<ir::SpaceId> spaces;     // by area; of inputs the latch, where it has one
-  std::vector<std::vector<bool>> used; // by area: bytes that are read or written
-  std::vector<ir::RoutineId> routines; // by unit; invalid where the level does not run it
+  uint32_t level = 0;                  // index in the language, and of its unit in the program
+  std::vector<ir::SpaceId> spaces;     // by area; for inputs the latch, if there is one
+  std::vector<std::vector<bool>> used; // by area: whether each byte is read or written
+  std::vector<ir::RoutineId> routines; // by unit; invalid if the level does not run it
   bool hasClock = false;
-  ir::SlotId clock;      // `now` at the beginning of the last run
-  ir::SlotId scanTime;   // from that to the beginning of this run
-  bool straight = false; // every run takes all networks of the level itself, in their order: none jumps
+  ir::SlotId clock;      // time at the beginning of the last run
+  ir::SlotId scanTime;   // from there to the beginning of this run
+  bool straight = false; // every run executes all networks of the level itself, in their order: none jumps
   bool countsRuns = false;
   ir::SlotId runs; // number of the run
 
@@ -51,14 +51,14 @@ struct RoutineContext {
   std::vector<uint32_t> rungOf; // by network
 };
 
-// The contacts and coils of one rung go to where they are asked for, if they are.
+// Adds the contacts and coils of one rung to the marks, if they are requested.
 class RungMarks {
 public:
   RungMarks(ir::Marks* marks, const SourceManager& sources, ir::RoutineId routine, uint32_t rung)
       : marks_(marks), sources_(sources), routine_(routine), rung_(rung) {}
-  // A contact or coil: its text is what its range holds.
+  // A contact or coil: its text is that of its range.
   void element(ir::MarkKind kind, ir::ValueId value, SourceRange range) const;
-  // A function; `more` is part of its text.
+  // A function; `more` is appended to its text.
   void function(ir::MarkKind kind, ir::ValueId value, const Function& function, std::string_view more = {}) const;
 
 private:
@@ -72,11 +72,11 @@ private:
 
 class ModuleLowering {
 public:
-  // The spaces and symbols are there then. `marks`: null or filled with contacts and coils. `compared`: with another
-  // version of the program; nothing is simplified because of what other rungs do.
+  // Afterwards the spaces and symbols exist. `marks`: null, or receives contacts and coils. `compared`: with another
+  // version of the program; then nothing is simplified because of other rungs.
   ModuleLowering(const Program& program, Context& context, std::span<const FileId> files, const Execution& execution,
                  ir::Marks* marks, bool compared);
-  // The networks; then tasks and scan, with the main program in so many parts; then the module.
+  // Called in this order: the networks; tasks and scan, with the main program in `parts` parts; the module.
   void lowerUnits();
   void addTasks(uint32_t parts);
   std::unique_ptr<ir::Module> take() { return std::move(module_); }
@@ -84,13 +84,13 @@ public:
   ir::Module& module() { return *module_; }
   ir::SpaceId spaceOf(Area area) const { return spaces_[static_cast<size_t>(area)]; }
   std::span<const LevelState> levels() const { return levels_; }
-  // The network that a rung of a unit was made of.
+  // The network from which a rung of a unit was made.
   const Network* networkOf(uint32_t unit, const ir::Rung& rung) const;
 
   // For Lowering.
   ir::SlotId slot(const std::string& key, ir::Type type, int64_t init, bool transient);
   ir::SpaceId constantSpace(std::string_view bytes) { return constants_.spaceOf(bytes); }
-  // One for a name, however often it is asked for.
+  // One for each name, made on first use.
   ir::SpaceId hiddenSpace(const std::string& name, uint32_t bytes);
   ir::ServiceId service(const nc::ServiceRow& row) { return frontend::service(*module_, row); }
   ir::SlotId leaveTarget() { return slot("@leave", ir::Type::I32, 0, false); }
@@ -138,8 +138,8 @@ private:
   std::vector<ir::SpaceId> spaces_; // of the areas
   std::unordered_map<std::string, ir::SpaceId> hidden_;
   std::vector<std::vector<Key>> keys_;                   // by unit and network
-  std::vector<std::vector<std::string>> slotPrefixes_;   // by unit and network; of networks with a function
-  std::unordered_map<const Network*, uint32_t> numbers_; // as drawn; of the ends of units there is none
+  std::vector<std::vector<std::string>> slotPrefixes_;   // by unit and network, for networks with a function
+  std::unordered_map<const Network*, uint32_t> numbers_; // as drawn; the ends of units have none
   std::vector<LevelState> levels_;
 };
 

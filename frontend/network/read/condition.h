@@ -1,10 +1,10 @@
-// The condition before SP, which has no effect (P13), in ladder text: a drawing has no place for it, so it is comments
-// directly after the line of the module:
+// The condition before SP, which has no effect (P13), in ladder text: a drawing has no position for it, so it is
+// written as comments directly after the line of the module:
 //   module SUB P7
 //   ; condition: LD X1.0
 //   ; condition: OR X1.1
-// They are one where a command list would take their commands for a condition; else, and everywhere else, such comments
-// are comments like any other, and may be titles.
+// These comments are a condition only if a command list would accept their commands as one; otherwise, and everywhere
+// else, they are ordinary comments and may be titles.
 #pragma once
 #include <span>
 #include <string_view>
@@ -18,7 +18,7 @@ namespace rung::frontend::network {
 
 inline constexpr std::string_view kConditionComment = "condition:";
 
-// That of a module in the comments directly after it: one command a line, with the range of the comment.
+// The condition of a module from the comments directly after it: one command per line, with the range of the comment.
 std::vector<Written> conditionIn(const Context& context, std::span<const ladder::Comment> comments);
 
 } // namespace rung::frontend::network

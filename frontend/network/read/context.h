@@ -1,4 +1,4 @@
-// What all readers of one compilation share: sources, diagnostics, names, and the count of steps.
+// Shared by all readers of one compilation: sources, diagnostics, names, and the count of steps.
 #pragma once
 #include <cstdint>
 #include <functional>
@@ -24,19 +24,19 @@ struct UserName {
   std::string_view name;
   SourceRange declared;
   Kind kind = Kind::Symbol;
-  bool bad = false; // its declaration was reported: uses stay silent
+  bool bad = false; // its declaration was reported: uses are not
   std::string_view comment;
   Address address;       // not of a constant
   std::string_view text; // of a constant, as declared
   int64_t value = 0;     // of a constant
 };
 
-// An address as an operand has it.
+// An address in an operand.
 struct NamedAddress : Address {
-  uint32_t name = frontend::kNoDefinition; // that it is written as
+  uint32_t name = frontend::kNoDefinition; // the name as which it is written
 };
 
-// A use of a name that is not declared, where one of this kind is expected.
+// A use of a name that is not declared, where this kind is expected.
 struct UndeclaredName : frontend::UndeclaredUse {
   UserName::Kind kind = UserName::Kind::Symbol;
   std::string expected;
@@ -52,21 +52,21 @@ public:
   void addConstant(Context& context, const Word& name, const Word& value);
 
   bool has(std::string_view name) const { return find(name) != frontend::kNoName; }
-  // What a word means, and a use of it; kNoName for no name of the program of this kind.
+  // The meaning of a word, recorded as a use; kNoName if the program has no name of this kind.
   uint32_t use(const Word& word, UserName::Kind kind);
-  // The same of a signal's name.
+  // The same for a signal's name.
   std::optional<NamedAddress> useSignal(const Language& language, const Word& word);
   // In the order of their declarations.
   auto ofKind(UserName::Kind kind) const {
     return all() | std::views::filter([kind](const UserName& name) { return name.kind == kind; });
   }
-  // Says in the analysis what all names are. To be called last.
+  // Adds all names to the analysis. Must be called last.
   void addTo(frontend::Analysis& analysis, const Language& language) const;
 
 private:
   static constexpr uint32_t kSignals = 1; // scope; the program may declare a name that a signal has
 
-  // Enters a name, bad until its value is read; null when it was reported.
+  // Adds a name, bad until its value is read; null after a report.
   UserName* declare(Context& context, const Word& name, UserName::Kind kind);
 };
 
@@ -76,46 +76,45 @@ struct Context {
   Diagnostics& diagnostics;
   Names names = {};
   uint32_t steps = 0;
-  // May be empty. Sees what operands name: a bit, or `length` bytes from an address on.
+  // Called with what operands name: a bit, or `length` bytes from an address on. May be empty.
   std::function<void(const Word& word, const Address& address, uint32_t length)> onPlace = {};
   Gaps gaps = {};
   frontend::Analysis analysis = {};
 };
 
-// A word that is not what the operand expects, a constant or an address, nor a name of this kind. A name that is not
-// declared waits for reportUndeclared, others are reported at once.
+// A word that is not what the operand expects, a constant or an address, nor a name of this kind. An undeclared name is
+// left to reportUndeclared, other words are reported at once.
 void unknownOperand(Context& context, const Word& word, UserName::Kind kind, std::string_view expected);
-// Reports the names that are not declared, once each, at their first use. To be called when all operands have been
-// read.
+// Reports names that are not declared, once each, at their first use. Must be called after all operands have been read.
 void reportUndeclared(Context& context);
 
-// Whether the first two words of a statement are one command of another language: AND NOT.
+// Whether the first two words of a statement form one command of another language: AND NOT.
 bool isForeign(const Language& language, std::span<const Word> words);
-// Reports the words of a statement that begins with no command, and a function that FUNC or a box names wrongly; with
-// what was meant, perhaps. `drawn`: what a box means whose name is a command's (ladder::drawnFor).
+// Report the words of a statement that begins with no command, or a wrong function name in FUNC or a box, possibly with
+// a suggestion. `drawn`: the meaning of a box whose name is a command's (ladder::drawnFor).
 void reportUnknownCommand(Context& context, std::span<const Word> words);
 void reportUnknownFunction(Context& context, std::string_view name, SourceRange range, std::string_view drawn = {});
 
-// One step of the program memory more (P1); the one that is too much is reported.
+// Counts one step of the program memory (P1); the first one that exceeds it is reported.
 void countStep(Context& context, SourceRange range);
 
-// `bytes` from the address on, or its bit, as the analysis has it.
+// `bytes` from the address on, or its bit, for the analysis.
 frontend::NamedPlace placeOf(const Language& language, const Address& address, uint32_t bytes);
 
-// Operands. Each reports what is wrong, or notes a name that is not declared, and gives nullopt then; a name whose
-// declaration is wrong, or an operand without a place, gives nullopt silently: it was reported.
+// Operands. Each function reports a mistake, or records an undeclared name, and then returns nullopt; for a name with a
+// wrong declaration, or an operand without a position, which have been reported, it only returns nullopt.
 std::optional<NamedAddress> bitOperand(Context& context, const Word& word);
 inline constexpr std::string_view kByteAddress = "a byte address, a signal or a declared name";
 std::optional<NamedAddress> byteOperand(Context& context, const Word& word, uint32_t length,
                                         std::string_view expected = kByteAddress);
-// False, with a report, when the program may not write `length` bytes (a bit: 1) there; warns of the system area.
+// False, with a report, if the program must not write `length` bytes (a bit: 1) there; warns of the system area.
 bool checkWritable(Context& context, const Address& address, uint32_t length, SourceRange range);
 struct CoilTraits { // see frontend::OperandUse
   bool isSet = false;
   bool isDue = false;
 };
-// The operand of a contact, which reads, or of a coil, which writes; the analysis has it then. Nullopt as above, and
-// for a bit that the program may not write.
+// The operand of a contact, which reads, or of a coil, which writes; added to the analysis. Nullopt as above, and for a
+// bit that the program must not write.
 std::optional<Address> readBit(Context& context, const Word& word, frontend::Access access, CoilTraits coil = {});
 
 } // namespace rung::frontend::network

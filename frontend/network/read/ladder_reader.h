@@ -1,4 +1,4 @@
-// Ladder text of a language (§5, P14): drawings to command lists, then the same way as command lists go.
+// Reads ladder text of a language (§5, P14): drawings to command lists, which are then read in the same way.
 #pragma once
 #include "frontend/ladder/text/ladder_file.h"
 #include "frontend/network/read/context.h"

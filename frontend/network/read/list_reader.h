@@ -1,4 +1,4 @@
-// Command lists (P12): one statement a line.
+// Reads command lists (P12): one statement per line.
 #pragma once
 #include <optional>
 #include <span>
@@ -12,29 +12,30 @@
 
 namespace rung::frontend::network {
 
-// What a statement of a command list (P12) is by itself, whatever its operands mean.
+// Statements of a command list (P12), independently of the meaning of their operands.
 
 // Comments begin with ';', there are no quoted texts.
 inline constexpr WordRules kListRules = {.comment = ';', .quotes = "", .separators = ""};
-// In any case; nullopt when there is none.
+// Ignoring case; nullopt if there is none.
 std::optional<Command> findCommand(const Language& language, std::string_view name);
 // The words after the step number.
 std::span<const Word> statementOf(const LineWords& line);
 
-// Whether all characters may be outside comments; one that may not is reported by checkCharacters.
+// Whether all characters are allowed outside of comments; checkCharacters reports one that is not.
 bool isReadable(std::span<const Word> words);
 bool checkCharacters(Diagnostics& diagnostics, std::span<const Word> words);
-// Reports operands that are missing or too many; `words`: the command with them.
+// Reports missing or surplus operands; `words`: the command with its operands.
 bool checkOperands(const Language& language, Diagnostics& diagnostics, Command command, std::span<const Word> words);
-// How many a command takes.
+// The number of operands of a command.
 size_t operandCount(Command command);
 // Whether a word begins a comment of other languages.
 bool looksLikeComment(std::string_view word);
 
-// The `symbol` and `const` statements of a file; they hold for the whole program, so they are read before all networks.
+// Reads the `symbol` and `const` statements of a file; they apply to the whole program, so they are read before all
+// networks.
 void readListSymbols(Context& context, FileId file);
 void readList(Context& context, FileId file, UnitAssembler& units);
-// The last line with something on it, for errors about what is missing at the end.
+// The last line that is not blank, for reports of what is missing at the end.
 SourceRange lastLineOf(const SourceManager& sources, FileId file);
 
 } // namespace rung::frontend::network

@@ -1,6 +1,6 @@
-// Commands to networks (P11). Both source forms feed it: the command list line by line, the ladder form rung by rung.
-// It follows the stack register, checks operands and parameters, and hands over each network when it is complete. After
-// an error in a network the rest of it is read without further complaints about the stack.
+// Builds networks from commands (P11). Both source forms feed it: the command list line by line, the ladder form rung
+// by rung. It tracks the stack register, checks operands and parameters, and passes on each network when it is
+// complete. After an error in a network no further errors of the stack are reported for it.
 #pragma once
 #include <functional>
 #include <string_view>
@@ -21,7 +21,7 @@ public:
   using Sink = std::function<void(Network&&)>;
   NetworkBuilder(Context& context, FileId file, Sink sink) : context_(context), file_(file), sink_(std::move(sink)) {}
 
-  // An operand without a place was reported; the command counts all the same. kind: Load, And or Or.
+  // An operand without a position was reported; the command counts all the same. kind: Load, And or Or.
   void contact(Logic kind, bool negated, const Word& operand, Place at);
   // kind: OrBlock or AndBlock.
   void block(Logic kind, Place at);
@@ -30,13 +30,13 @@ public:
   void function(const Row* row, Place at);
   void parameter(const Word& operand, Place at);
   void tableRow(const Word& operand, Place at);
-  // A command that could not be read, and was reported.
+  // An unreadable command, which was reported.
   void garbage(Place at);
-  // That of the last command, on its line.
+  // The comment on the line of the last command.
   void comment(std::string_view text);
   // The title of the network that begins next.
   void title(std::string_view text) { pendingTitle_ = text; }
-  // Completes the network under way.
+  // Completes the current network.
   void finish();
 
 private:
@@ -61,16 +61,16 @@ private:
   Sink sink_;
   Network network_;
   State state_ = State::Idle;
-  std::vector<SourceRange> open_; // blocks that are not joined yet: their first commands
-  bool silent_ = false;           // the stack of this network is lost; reported
-  bool strayReported_ = false;    // parameters without a function, since the network began
+  std::vector<SourceRange> open_; // first commands of blocks that are not combined yet
+  bool silent_ = false;           // an error of the stack in this network has been reported
+  bool strayReported_ = false;    // parameters without a function have been reported for this network
   bool unknown_ = false;          // FUNC of an unknown function
   std::vector<Word> parameters_;
   std::vector<Word> table_;
   std::string_view pendingTitle_;
 };
 
-// Fills in parameters, table and length by the row. False when something was wrong; everything wrong was reported.
+// Fills in parameters, table and length according to the row. False if there were mistakes, which were all reported.
 bool checkFunction(Context& context, const std::vector<Word>& parameters, const std::vector<Word>& table,
                    Function& function);
 

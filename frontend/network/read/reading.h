@@ -1,4 +1,4 @@
-// All files of one program, read in one order: command lists before ladder text.
+// Reads all files of one program, in this order: command lists before ladder text.
 #pragma once
 #include <span>
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace rung::frontend::network {
 
-// Ladder text; the others are command lists.
+// Whether the file is ladder text; the others are command lists.
 bool isLadder(const Language& language, const SourceManager& sources, FileId file);
 
 class Reading {
@@ -17,7 +17,7 @@ public:
   Reading(Context& context, Program& program) : context_(context), units_(context, program) {}
 
   void add(FileId file);
-  // True when all function commands were understood as such.
+  // True if all function commands were recognised.
   bool read();
 
   const std::vector<FileId>& lists() const { return lists_; }

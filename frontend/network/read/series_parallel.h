@@ -1,5 +1,5 @@
-// Contacts between the left rail and a net as a tree of series and parallel groups (§5, P14): what a command list can
-// say. The tree knows nothing of command lists or lowering, so that both directions of a conversion can use it.
+// Contacts between the left rail and a net as a tree of series and parallel groups (§5, P14), which a command list can
+// express. The tree does not depend on command lists or lowering, so that both directions of a conversion can use it.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -15,14 +15,14 @@ struct SpTree {
   struct Node {
     Kind kind = Kind::Contact;
     ladder::ElementId contact;      // Contact
-    std::vector<uint32_t> children; // Series: left to right; Parallel: upper branch first; never of the own kind
+    std::vector<uint32_t> children; // Series: left to right; Parallel: upper branch first; never of the same kind
   };
   std::vector<Node> nodes;
   uint32_t root = 0;
 };
 
-// The network before `target`; nullopt when it is not series-parallel. `target` must not be the rail, and
-// everything that drives it must be contacts. Time is linear in the contacts but for the sorting of branches.
+// The network before `target`; nullopt if it is not series-parallel. `target` must not be the rail, and all its drivers
+// must be contacts. The time is linear in the contacts except for the sorting of branches.
 std::optional<SpTree> decompose(const ladder::Rung& rung, ladder::NetId target);
 
 } // namespace rung::frontend::network

@@ -1,4 +1,4 @@
-// From networks to a program: which unit a network belongs to.
+// Assigns networks to the units of a program.
 #pragma once
 #include <map>
 #include <vector>
@@ -8,14 +8,14 @@
 
 namespace rung::frontend::network {
 
-// Sorts networks into units. Command lists bring their own ends (§1.2); ladder modules name their unit.
+// Sorts networks into units. Command lists contain their ends (§1.2); ladder modules name their unit.
 class UnitAssembler {
 public:
   UnitAssembler(Context& context, Program& program)
       : language_(context.language), context_(context), program_(program), ends_(language_.levels.size()),
         moduleOpened_(language_.levels.size()) {}
 
-  // Command lists: every network in the order of the text, then the end of each file.
+  // Command lists: every network in text order, then the end of each file.
   void add(Network&& network);
   void endOfList(SourceRange lastLine);
 
@@ -24,9 +24,9 @@ public:
   uint32_t openSubprogram(uint32_t number, SourceRange range, SourceRange name);
   Unit& at(uint32_t unit) { return program_.units[unit]; }
 
-  // After all files: every unit gets its end. `anywhere` serves where a unit has no place of its own.
+  // After all files: gives every unit its end. `anywhere` is used for units without a position.
   void finish(SourceRange anywhere);
-  // A function command may have been lost in an error; then nothing is said about what is missing.
+  // Whether a function command may have been lost in an error; then missing parts are not reported.
   bool incomplete() const { return incomplete_; }
   void setIncomplete() { incomplete_ = true; }
 
@@ -41,27 +41,27 @@ private:
   void nest(SourceRange inner);
   void closeAll();
   uint32_t levelCount() const { return static_cast<uint32_t>(language_.levels.size()); }
-  // The first level after `level` whose end was seen; levelCount() when there is none.
+  // The first level after `level` whose end was found; levelCount() if there is none.
   uint32_t nextEnded(uint32_t level) const;
-  // The end after which subprograms belong.
+  // The end after which subprograms must follow.
   const Row& lastEnd() const { return language_.endOf(levelCount() - 1); }
 
   const Language& language_;
   Context& context_;
   Program& program_;
   std::map<uint32_t, uint32_t> subprograms_; // number -> unit
-  uint32_t current_ = 0;                     // kNone: after the last level, in no subprogram
+  uint32_t current_ = 0;                     // kNone: after the last level, outside of subprograms
   struct Open {
     uint32_t unit = kNone;
     uint32_t outside = kNone; // the unit around a misplaced or nested subprogram
-    bool closedInner = false; // the last thing in it was a nested subprogram
+    bool closedInner = false; // its last part was a nested subprogram
   };
   std::vector<Open> open_; // subprograms, the innermost last
   bool nestedReported_ = false;
   bool sawList_ = false;
-  std::vector<SourceRange> ends_;      // of the levels; invalid: not seen
-  bool strayReported_ = false;         // in this run of commands after the last level
-  std::vector<SourceRange> stray_;     // such runs
+  std::vector<SourceRange> ends_;      // of the levels; invalid: not found
+  bool strayReported_ = false;         // for this run of commands after the last level
+  std::vector<SourceRange> stray_;     // ranges of such runs
   std::vector<SourceRange> misplaced_; // subprograms that began before its end
   bool incomplete_ = false;
   std::vector<bool> moduleOpened_; // by level

@@ -1,4 +1,4 @@
-// Codes of GSK's rules: an entry of gsk.def each.
+// Codes of GSK's rules, one per entry of gsk.def.
 #pragma once
 #define RUNG_DIAG_FAMILY Gsk
 #define RUNG_DIAG_ENTRIES "ir/support/diag/gsk.def"

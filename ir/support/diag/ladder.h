@@ -1,4 +1,4 @@
-// Codes of drawn ladders: an entry of ladder.def each.
+// Codes of drawn ladders, one per entry of ladder.def.
 #pragma once
 #define RUNG_DIAG_FAMILY Ladder
 #define RUNG_DIAG_ENTRIES "ir/support/diag/ladder.def"

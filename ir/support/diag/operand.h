@@ -1,4 +1,4 @@
-// Codes of names, addresses and operands: an entry of operand.def each.
+// Codes of names, addresses and operands, one per entry of operand.def.
 #pragma once
 #define RUNG_DIAG_FAMILY Operand
 #define RUNG_DIAG_ENTRIES "ir/support/diag/operand.def"

@@ -1,4 +1,4 @@
-// Codes of files, characters and limits: an entry of source.def each.
+// Codes of files, characters and limits, one per entry of source.def.
 #pragma once
 #define RUNG_DIAG_FAMILY Source
 #define RUNG_DIAG_ENTRIES "ir/support/diag/source.def"

@@ -1,4 +1,4 @@
-// Codes of program structure, labels and calls: an entry of structure.def each.
+// Codes of program structure, labels and calls, one per entry of structure.def.
 #pragma once
 #define RUNG_DIAG_FAMILY Structure
 #define RUNG_DIAG_ENTRIES "ir/support/diag/structure.def"

@@ -1,4 +1,4 @@
-// Codes of TECHNOL's rules: an entry of technol.def each.
+// Codes of TECHNOL's rules, one per entry of technol.def.
 #pragma once
 #define RUNG_DIAG_FAMILY Technol
 #define RUNG_DIAG_ENTRIES "ir/support/diag/technol.def"

@@ -1,6 +1,6 @@
-// Which form a dialect has (see form.h). In the text of an instruction {not} is a bit that is always 0; of the rung's
-// own are: {in} its condition, {out} a bit, {a} {b} {to} words, {x} {y} {z} reals, {state} what the instruction keeps,
-// {n} a number from 1 on.
+// The forms of the dialects (see form.h). In the text of an instruction {not} is a bit that is always 0; the rung's own
+// are: {in} its condition, {out} a bit, {a} {b} {to} words, {x} {y} {z} reals, {state} the instruction's state, {n} a
+// number from 1 on.
 #include "tools/bench/generated/form.h"
 
 namespace rung::bench {

@@ -1,4 +1,4 @@
-// A work in the language of a dialect.
+// A generated work written in the language of a dialect.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -13,37 +13,38 @@
 namespace rung::bench {
 
 struct Program {
-  std::string file; // its ending says the dialect
+  std::string file; // its ending selects the dialect
   std::string text;
   int msAScan = 0;
-  // Where the program keeps what the work numbers. Tables one after the other.
+  // Where the program keeps the numbered bits, words, tables and reals of the work. The entries of all tables follow
+  // one another.
   std::vector<std::string> bits{}, words{}, tables{}, reals{};
   std::vector<std::pair<std::string, uint64_t>> constants{}; // written before the first scan
 };
 
-// One instruction, for a table of what each costs: rungs that are all the same.
+// One instruction of the table of instruction costs: a program of identical rungs.
 struct Instruction {
   const char* title;
-  const char* text; // of one rung; form.cpp says what {…} means
+  const char* text; // text of one rung; form.cpp explains {…}
 };
 
 class Form {
 public:
   virtual ~Form() = default;
-  // Fails where the control has no room for it, or no such thing.
+  // The work as a program of this dialect. Fails if the control lacks the memory or the elements for it.
   virtual Result<Program> write(const Work& work) const = 0;
   virtual std::vector<Instruction> instructions() const = 0;
-  // `count` rungs of that text (0: the empty program). `bits` are their conditions.
+  // A program of `count` rungs with that text (0: an empty program). `bits` are the conditions of the rungs.
   virtual Program repeat(const std::string& text, uint32_t count) const = 0;
 };
 
 inline constexpr std::string_view kDialects[] = {"nct", "gsk", "technol"};
-std::unique_ptr<Form> formOf(std::string_view dialect); // null: there is no such dialect
+std::unique_ptr<Form> formOf(std::string_view dialect); // null: unknown dialect
 std::unique_ptr<Form> nctForm();
 std::unique_ptr<Form> gskForm();
 std::unique_ptr<Form> technolForm();
 
-// Which of `count` conditions a rung has: neighbours do not have neighbours.
+// Which of `count` conditions a rung has: neighbouring rungs have conditions that are not neighbours.
 constexpr uint32_t conditionOf(uint32_t rung, uint32_t count) { return 7 * rung % count; }
 
 // The text with each {name} replaced.

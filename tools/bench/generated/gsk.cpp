@@ -1,4 +1,4 @@
-// GSK: command list, all of it in Level 2 (see form.h).
+// The GSK form: a command list, all of it in Level 2 (see form.h).
 #include <algorithm>
 
 #include "ir/support/put.h"
@@ -9,11 +9,11 @@ namespace {
 
 constexpr uint32_t kSteps = 12000; // of a program (man. l.354)
 constexpr uint32_t kFirstX = 9, kFirstF = 64;
-constexpr uint32_t kRelayBytes = 1000;          // R; the control's own are after them
+constexpr uint32_t kRelayBytes = 1000;          // of area R; the control's own are after them
 constexpr uint32_t kSignalBytes = 200;          // G, F
 constexpr uint32_t kFixedTimers = 200;          // numbers of TMRB
 constexpr uint32_t kZero = 8 * kRelayBytes - 1; // a relay that is never written
-// D: words, tables, what indexed transfers and counters need.
+// Data table D: words, tables, and the cells of indexed transfers and counters.
 constexpr uint32_t kDataBytes = 1860;
 constexpr uint32_t kTableBytes = 1040;
 constexpr uint32_t kCapacity = 1300;
@@ -58,7 +58,7 @@ public:
     case Op::Less: return less(e);
     case Op::TableRead: return transfer(e, "LD");
     case Op::TableWrite: return transfer(e, "LDI");
-    default: break; // refused before
+    default: break; // refused earlier
     }
   }
   uint32_t steps() const { return steps_; }
@@ -71,7 +71,7 @@ private:
     steps_ += steps;
   }
   const std::string& coil(const Element& e) const { return program_.bits[e.coil]; }
-  // Functions have an output that the work knows nothing of: a relay of its own.
+  // Functions have an output that the work does not have: each gets a separate relay.
   std::string spareRelay() { return relay(spare_++); }
   std::string preset(uint32_t value) {
     const std::string place = data(kPresets + 2 * value);
@@ -103,7 +103,7 @@ private:
     put("LD {0}\nFUNC COMPB\nPRM 1004\nPRM {1}\nPRM {2}\nPRM R{3}\nLD {0}\nAND R{3}.2\nOUT {4}\n", 9,
         program_.bits[e.first.bit], word(e.a), word(e.b), byte, coil(e));
   }
-  // `direction` of a relay that is always 0.
+  // `direction` is a relay that is always 0.
   void transfer(const Element& e, const char* direction) {
     put("{0} {1}\nLD {1}\nLD {2}\nFUNC XMOVB\nPRM 4\nPRM {3}\nPRM {4}\nPRM {5}\nPRM {6}\nOUT {7}\n", 10, direction,
         relay(kZero), program_.bits[e.first.bit], data(kCapacity), data(kTableBytes + 4 * kEntries * e.b), word(e.to),
@@ -185,7 +185,7 @@ public:
 
 private:
   static constexpr const char* kEnd = "FUNC END2\n";
-  static constexpr uint32_t kEndSteps = 2; // with END1
+  static constexpr uint32_t kEndSteps = 2; // including END1
   static Program named() { return {.file = "generated.pmc", .text = "FUNC END1\n", .msAScan = kScanMs}; }
 };
 

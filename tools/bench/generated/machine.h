@@ -1,5 +1,5 @@
-// What happens at the machine of a generated program, the same for every form of it: from scan to scan some inputs
-// change, an index, an operand.
+// The simulated machine of a generated program, the same for every form of it: from scan to scan it changes some
+// inputs, an index and an operand.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace rung::bench {
 struct Change {
   static constexpr size_t kBits = 4;
   uint32_t bitCount = 0;
-  std::array<uint32_t, kBits> bits{}; // that change over
+  std::array<uint32_t, kBits> bits{}; // the inputs that change
   bool hasWords = false;
   std::array<uint32_t, 2> words{}; // an index and an operand
   std::array<uint32_t, 2> wordValues{};
@@ -26,7 +26,7 @@ class Machine {
 public:
   explicit Machine(const Work& work);
 
-  // Before the first scan; results, coils and tables begin at 0.
+  // The inputs before the first scan; results, coils and tables begin at 0.
   const std::vector<bool>& inputs() const { return inputs_; }
   const std::vector<uint32_t>& words() const { return words_; }
   const std::vector<double>& reals() const { return reals_; }

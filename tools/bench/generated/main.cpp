@@ -1,22 +1,22 @@
-// rung-bench-generated: what the bench does with one generated program. The programs that print sources need no
-// compiled program; the others are given one, and straight-line forms, as shared objects.
+// rung-bench-generated: the bench's operations on one generated program. Commands that print sources need no compiled
+// program; the others take one, and straight-line forms, as shared objects.
 //
-//   source DIALECT KIND SIZE               the program in its language; status 4 where the control has no room for it
+//   source DIALECT KIND SIZE               the program in its language; status 4 if the control has no room for it
 //   straight KIND SIZE byte|packed         the straight-line form
-//   structured-text KIND SIZE              the program for compilers of others; status 4 where it cannot say it
-//   rungs, places KIND SIZE                what else a peer is made from (peer.h)
-//   instructions DIALECT                   the titles of what costs are known for
+//   structured-text KIND SIZE              the program for other vendors' compilers; status 4 if not expressible
+//   rungs, places KIND SIZE                other inputs of a peer (peer.h)
+//   instructions DIALECT                   the titles of the instructions with known costs
 //   instruction DIALECT NUMBER COUNT       a program of COUNT rungs of one of them
 //   check DIALECT KIND SIZE PROGRAM.so [byte|packed|peer FORM.so]...
 //                                          all forms side by side, compared after every scan
 //   count DIALECT KIND SIZE PROGRAM.so [byte|packed|peer FORM.so]...
-//                                          under callgrind: scans of each form, and a dump of its own for each
+//                                          under callgrind: scans of each form, with a dump for each
 //   touch DIALECT KIND SIZE PROGRAM.so [byte|packed|peer FORM.so]...
 //                                          under callgrind: one scan of the last form, from empty caches
 //   cold DIALECT KIND SIZE PROGRAM.so [byte|packed|peer FORM.so]...
-//                                          a form after the other, each scan after a sleep: nanoseconds as JSON
+//                                          one form after the other, each scan after a sleep: nanoseconds as JSON
 //   count-rungs, cold-rungs DIALECT NUMBER COUNT PROGRAM.so
-//                                          the same of a program of equal rungs, with the condition 1
+//                                          the same for a program of equal rungs, with the condition 1
 #include <valgrind/callgrind.h>
 
 #include <algorithm>
@@ -44,14 +44,14 @@ using namespace rung;
 using Words = std::vector<std::string>;
 
 constexpr int kNoRoom = 4;
-constexpr int kSettleScans = 20;   // before what is measured
+constexpr int kSettleScans = 20;   // before the measurement
 constexpr int kCheckedScans = 400; // compared one by one
 constexpr int kCountedScans = 40;
 constexpr int kWakeUps = 2000;
-constexpr int kWakeUpsForRungs = 500; // there are a hundred programs of them
+constexpr int kWakeUpsForRungs = 500; // fewer, because there are a hundred programs of them
 constexpr auto kSleep = std::chrono::milliseconds(1);
-constexpr int64_t kEarlyNs = 250'000;    // before a scan: the most that rung-run allows of its period
-constexpr size_t kOtherBytes = 2u << 20; // what other work touches in the meantime
+constexpr int64_t kEarlyNs = 250'000;    // time before a scan: the most that rung-run allows, as a share of its period
+constexpr size_t kOtherBytes = 2u << 20; // bytes that other work accesses meanwhile
 
 struct WrongUsage : std::runtime_error {
   using std::runtime_error::runtime_error;
@@ -99,7 +99,7 @@ std::unique_ptr<runtime::SoEngine> load(const std::string& path) {
   return engine;
 }
 
-// All forms of one work that the command line names, ours first.
+// All forms of one work that the command line names, Rung's first.
 struct Forms {
   explicit Forms(const Words& words)
       : of(work(at(words, 2), at(words, 3))), program(good(form(at(words, 1))->write(of))), engine(load(at(words, 4))) {
@@ -185,7 +185,7 @@ void touch(const Words& words) {
   CALLGRIND_STOP_INSTRUMENTATION;
 }
 
-// What else runs on the processor while a task sleeps.
+// Simulates the other work of the processor while a task sleeps.
 class OtherWork {
 public:
   OtherWork() : bytes_(kOtherBytes) {}
@@ -214,7 +214,7 @@ void printList(const std::vector<std::vector<double>>& lists) {
   std::cout << "]\n";
 }
 
-// A sleep that ends early, and what a host does then until it is time.
+// Sleeps until shortly before the scan, then prefetches as a host does until it is due.
 void sleepAndTouch(const bench::Ours& ours) {
   const int64_t due = runtime::monotonicNs() + std::chrono::nanoseconds(kSleep).count();
   runtime::sleepUntil(due - kEarlyNs);
@@ -222,7 +222,7 @@ void sleepAndTouch(const bench::Ours& ours) {
   runtime::waitAwake(due);
 }
 
-// Three lists for each form, ours first: hot, after a sleep, after other work and a sleep. The last list is of ours
+// Three lists for each form, Rung's first: hot, after a sleep, after other work and a sleep. The last list is Rung's
 // again: after a sleep that ends early.
 template <class Apply>
 void measure(bench::Ours& ours, const std::vector<bench::Side*>& others, int wakeUps, Apply apply) {

@@ -1,4 +1,4 @@
-// NCT: ladder text (see form.h). Everything is in the volatile user memory, but for NC signals.
+// The NCT form: ladder text (see form.h). Everything is in the volatile user memory, except NC signals.
 #include <algorithm>
 
 #include "ir/support/put.h"
@@ -9,9 +9,9 @@ namespace rung::bench {
 namespace {
 
 constexpr uint32_t kBitsAWord = 32;
-constexpr uint32_t kBits = 5100; // first words of what a program keeps
+constexpr uint32_t kBits = 5100; // first word of the program's bits
 constexpr uint32_t kWords = 6800;
-constexpr uint32_t kCells = 7200; // of timers, counters, and reals, two words each
+constexpr uint32_t kCells = 7200; // first word of timers, counters, and reals, which take two words each
 constexpr uint32_t kTableWords = 9700;
 constexpr int kScanMs = 10;
 
@@ -22,7 +22,7 @@ std::string wordAt(uint32_t word) { return fmt::format("{:04}", word); }
 std::string word(uint32_t number) { return wordAt(kWords + number); }
 std::string table(uint32_t number, uint32_t entry) { return wordAt(kTableWords + number * kEntries + entry); }
 
-// Where the cells of a work lie.
+// The places of a work's cells.
 struct Cells {
   explicit Cells(const Work& work)
       : counters(kCells + work.timers), reals((counters + work.counters + 1) / 2 * 2), end(reals + 2 * work.reals()) {}
@@ -33,7 +33,7 @@ struct Cells {
   uint32_t counters, reals, end;
 };
 
-// The bits of the interface, those of a direction.
+// Adds the bits of the interface with the given direction.
 void addSignals(std::vector<std::string>& bits, nc::Direction direction, size_t most) {
   for (const nc::Signal& row : nc::nctSignals()) {
     if (row.type != nc::SignalType::Bit || row.direction != direction) continue;
@@ -70,7 +70,7 @@ public:
     case Op::RealMultiply: return calculateReal(e, "*F");
     case Op::TableRead: return fmt::format("|--{}--{{MOV {} {},{}}}\n", in, word(e.to), table(e.b, 0), word(e.a));
     case Op::TableWrite: return fmt::format("|--{}--{{MOV {},{} {}}}\n", in, table(e.b, 0), word(e.a), word(e.to));
-    case Op::Mechanism: break; // refused before
+    case Op::Mechanism: break; // refused earlier
     }
     return {};
   }

@@ -45,7 +45,7 @@ Peer::Peer(Begin begin, Scan scan, void* const* places, const Work& work, int ms
       reals_(tables_ + entries(work)), work_(work), msAScan_(msAScan) {}
 
 Result<std::unique_ptr<Peer>> Peer::load(const std::string& path, const Work& work, int msAScan) {
-  void* library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL); // stays loaded: profilers look names up at the end
+  void* library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL); // stays loaded: profilers look names up at exit
   if (library == nullptr) return failure(dlerror());
   void* found[3];
   for (size_t i = 0; const char* name : {"peer_begin", "peer_scan", "peer_places"}) {

@@ -1,4 +1,4 @@
-// A generated program as a compiler of others made it, beside ours and the straight-line forms.
+// A generated program as another vendor's compiler made it, compared with Rung and the straight-line forms.
 #pragma once
 #include <memory>
 #include <string>
@@ -13,8 +13,8 @@ namespace rung::bench {
 // macros of the sources in tools/bench/peers.
 std::string peerPlaces(const Work& work);
 
-// The rungs for ClassicLadder's data, in the same way: LOGIC(parallel, bit, negated, bit, negated, bit, negated, coil).
-// Fails where the work has something else.
+// The rungs as macros for ClassicLadder's data, in the same way: LOGIC(parallel, bit, negated, bit, negated, bit,
+// negated, coil). Fails if the work has other elements.
 Result<std::string> peerRungs(const Work& work);
 
 // A shared object made from tools/bench/peers. It exports
@@ -23,7 +23,7 @@ Result<std::string> peerRungs(const Work& work);
 //   void* peer_places[]      in the order of peerPlaces: a bit is a byte of 0 or 1, words have 32 bits, reals 64
 class Peer final : public Side {
 public:
-  // Fails where it cannot be loaded.
+  // Fails if the shared object cannot be loaded.
   static Result<std::unique_ptr<Peer>> load(const std::string& path, const Work& work, int msAScan);
   void begin(const Machine& machine) override;
   void apply(const Change& change) override;

@@ -31,7 +31,7 @@ bool find(const rung_program& program, core::Memory memory, const std::vector<st
 template <class T>
 std::vector<T> copied(const uint8_t* from, size_t count) {
   std::vector<T> values(count);
-  if (count != 0) std::memcpy(values.data(), from, count * sizeof(T)); // which takes no null
+  if (count != 0) std::memcpy(values.data(), from, count * sizeof(T)); // memcpy does not take a null pointer
   return values;
 }
 
@@ -63,9 +63,9 @@ Result<std::unique_ptr<Ours>> Ours::make(runtime::Engine& engine, const Program&
   return ours;
 }
 
-// As the runtime's library does, which knows what its host looks at.
+// Leaves out unneeded copies as the runtime library does, which knows what its host accesses.
 void Ours::leaveOut() {
-  constexpr uint32_t kBytes = 8; // of a place, at most
+  constexpr uint32_t kBytes = 8; // most bytes of a place
   const core::NeededCopies& copies = instance_.neededCopies();
   for (const std::vector<core::Place>* places : {&bits_, &words_, &tables_, &reals_})
     for (const core::Place& place : *places)
@@ -116,7 +116,7 @@ Straight::Straight(Scan scan, const Work& work, BitForm form, int msAScan)
     : scan_(scan), work_(work), layout_(work, form), msAScan_(msAScan), memory_(layout_.size / sizeof(uint64_t)) {}
 
 Result<std::unique_ptr<Straight>> Straight::load(const std::string& path, const Work& work, BitForm form, int msAScan) {
-  void* library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL); // stays loaded: profilers look names up at the end
+  void* library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL); // stays loaded: profilers look names up at exit
   void* scan = library == nullptr ? nullptr : dlsym(library, "scan");
   if (scan == nullptr) return failure(dlerror());
   return std::unique_ptr<Straight>(new Straight(reinterpret_cast<Scan>(scan), work, form, msAScan));

@@ -1,4 +1,5 @@
-// A generated program in one of its forms, ready to be scanned: ours in the host's runner, or the straight-line one.
+// A generated program in one of its forms, ready to be scanned: compiled by Rung in the host's runner, or the
+// straight-line form.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -14,35 +15,35 @@
 
 namespace rung::bench {
 
-// Everything that the work numbers, as the form has it now.
+// The current values of everything that the work numbers.
 struct Values {
   std::vector<bool> bits;
   std::vector<uint32_t> words, tables;
-  std::vector<uint64_t> reals; // their bits
+  std::vector<uint64_t> reals; // their bit patterns
   bool operator==(const Values&) const = default;
 };
 
 class Side {
 public:
   virtual ~Side() = default;
-  virtual void begin(const Machine& machine) = 0; // as at the first scan
+  virtual void begin(const Machine& machine) = 0; // the state of the first scan
   virtual void apply(const Change& change) = 0;
   virtual void scan() noexcept = 0;
   virtual Values values() const = 0;
 };
 
-// Ours: a whole scan, without a control. All places are found when it is made.
+// Rung's form: a whole scan, without a control. All places are looked up in make().
 class Ours final : public Side {
 public:
-  // Fails where the program lacks one of the places.
+  // Fails if the program lacks one of the places.
   static Result<std::unique_ptr<Ours>> make(runtime::Engine& engine, const Program& program);
   void begin(const Machine& machine) override;
   void apply(const Change& change) override;
   void scan() noexcept override { instance_.scan(); }
   Values values() const override;
-  void beginWith(bool condition); // of a program without a machine: all of its bits
+  void beginWith(bool condition); // for a program without a machine: sets all of its bits
   runtime::Instance& instance() { return instance_; }
-  // What a scan reads, until the clock has come to that.
+  // Prefetches what a scan reads, until the clock reaches `untilNs`.
   void touch(int64_t untilNs) const noexcept { footprint_.prefetch(instance_.block().data(), untilNs); }
 
 private:
@@ -52,14 +53,14 @@ private:
 
   runtime::Instance instance_;
   runtime::Footprint footprint_;
-  std::vector<core::Place> inputs_; // where what the machine writes lasts
+  std::vector<core::Place> inputs_; // where a write of the machine survives the process-image copies
   std::vector<core::Place> bits_, words_, tables_, reals_;
   std::vector<std::pair<core::Place, uint64_t>> constants_;
 };
 
 class Straight final : public Side {
 public:
-  // A shared object of straightSource. Fails where it cannot be loaded.
+  // A shared object of straightSource. Fails if it cannot be loaded.
   static Result<std::unique_ptr<Straight>> load(const std::string& path, const Work& work, BitForm form, int msAScan);
   void begin(const Machine& machine) override;
   void apply(const Change& change) override;
@@ -81,7 +82,7 @@ private:
   std::vector<uint64_t> memory_;
 };
 
-// "" or the first place where they differ.
+// The first place where the values differ; "" if none does.
 std::string difference(const Values& ours, const Values& theirs, const Program& program);
 
 } // namespace rung::bench

@@ -1,4 +1,4 @@
-// One statement an element (see straight.h, and there what FROZEN means).
+// One statement per element (see straight.h, also for the meaning of FROZEN).
 #include "tools/bench/generated/straight.h"
 
 #include <algorithm>
@@ -10,7 +10,7 @@ namespace rung::bench {
 namespace {
 
 constexpr uint32_t kWordBits = 64;
-constexpr size_t kElementsAFunction = 100; // one function for everything takes compilers minutes
+constexpr size_t kElementsAFunction = 100; // a single function for everything takes compilers minutes
 
 uint32_t alignedTo8(uint32_t bytes) { return (bytes + 7) / 8 * 8; }
 

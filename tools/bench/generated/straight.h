@@ -1,8 +1,7 @@
 // The straight-line form of a work: the C++ that a programmer would write by hand for it.
 //
-// FROZEN: published figures are ratios to what this makes. It is only changed where it is wrong, and never so that it
-// becomes slower or ours looks better; after a change of it all figures have to be measured again, which the change has
-// to say.
+// FROZEN: published figures are ratios to this form. It is changed only where it is wrong, and never so that it becomes
+// slower or Rung looks better; a change of it has to say that all figures have to be measured again.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -11,16 +10,17 @@
 
 namespace rung::bench {
 
-enum class BitForm : uint8_t { Byte, Packed }; // a byte a bit, or 64 bits a word
+enum class BitForm : uint8_t { Byte, Packed }; // a byte per bit, or 64 bits per word
 
-// Where the memory of the form has what is written and compared; what follows is its own. It begins zeroed.
+// Where the memory of the form holds the values that are set and compared; the rest after them is private. All of it
+// begins as 0.
 struct StraightLayout {
   StraightLayout(const Work& work, BitForm form);
   BitForm form;
   uint32_t words;  // bytes from the beginning
   uint32_t tables; // the same
   uint32_t reals;  // the same
-  uint32_t size;   // of all
+  uint32_t size;   // of the whole memory
 };
 
 // extern "C" void scan(Memory* memory, int ms): one scan, `ms` after the one before.

@@ -1,4 +1,4 @@
-// One statement an element (see structured_text.h), each as a programmer would write it by hand.
+// One statement per element (see structured_text.h), each as a programmer would write it by hand.
 #include "tools/bench/generated/structured_text.h"
 
 #include <string_view>
@@ -21,7 +21,7 @@ std::string timer(const Element& e) {
                      bit(e.coil));
 }
 
-// Not a CTU, which stays at its preset.
+// Not a CTU, which would stay at its preset.
 std::string counter(const Element& e) {
   return fmt::format("IF {0} AND NOT e{1} THEN IF c{1} = {2} THEN c{1} := 0; ELSE c{1} := c{1} + 1; END_IF; END_IF; "
                      "IF {3} THEN c{1} := 0; END_IF; e{1} := {0}; {4} := c{1} = {2};",

@@ -1,4 +1,4 @@
-// A work in Structured Text of IEC 61131-3, for compilers of others.
+// A work in Structured Text of IEC 61131-3, for other vendors' compilers.
 #pragma once
 #include <string>
 
@@ -7,8 +7,8 @@
 
 namespace rung::bench {
 
-// A program MAIN, and the configuration with an instance of it. A name is a letter for what it is and the number that
-// it has in the work; timers are the standard's TON. Fails where the work has mechanisms, which the language lacks.
+// A program MAIN, and the configuration with an instance of it. A name is a letter for the kind and the number in the
+// work; timers are the standard's TON. Fails if the work has mechanisms, which the language lacks.
 Result<std::string> structuredText(const Work& work);
 
 } // namespace rung::bench

@@ -1,4 +1,4 @@
-// TECHNOL: all of it in MODULE_MAIN (see form.h).
+// The TECHNOL form: all of it in MODULE_MAIN (see form.h).
 #include <algorithm>
 
 #include "ir/support/put.h"
@@ -14,7 +14,7 @@ std::string bit(uint32_t number) { return fmt::format("B_{}", number); }
 std::string word(uint32_t number) { return fmt::format("W_{}", number); }
 std::string real(uint32_t number) { return fmt::format("Q_{}", number); }
 
-// The cells of the interface that the control (or, of outputs, the program) alone writes.
+// The cells of the interface that only the control (or, for outputs, the program) writes.
 std::vector<std::string> signals(nc::Direction direction) {
   std::vector<std::string> names;
   for (const nc::Signal& row : nc::technolSignals())
@@ -24,7 +24,7 @@ std::vector<std::string> signals(nc::Direction direction) {
   return names;
 }
 
-// By bit: a cell of the interface that no rung names is not in the program.
+// By bit, whether a rung names it: a cell of the interface that no rung names is not in the program.
 std::vector<bool> named(const Work& work) {
   std::vector<bool> out(work.bits(), false);
   for (const Element& element : work.elements) {
@@ -55,7 +55,7 @@ std::string declarationOf(const std::vector<std::string>& bits) {
   std::string text;
   uint32_t count = 0;
   for (const std::string& name : bits) {
-    if (!name.starts_with("B_")) continue; // the interface has it
+    if (!name.starts_with("B_")) continue; // part of the interface
     put(text, "{}{}", count % 8 == 0 ? "\n        DFM  " : ",", name);
     ++count;
   }
@@ -108,7 +108,7 @@ public:
 private:
   std::string contact(const Contact& c) const { return (c.negated ? "-" : "") + program_.bits[c.bit]; }
   const std::string& coil(const Element& e) const { return program_.bits[e.coil]; }
-  // CU has neither an end nor a reset: both are written after it.
+  // CU has neither a limit nor a reset: both are written after it.
   std::string counter(const Element& e) const {
     return fmt::format(
         "        LDR  {0}\n        LOD  {1}\n        CU   C_{2}\n"

@@ -1,4 +1,4 @@
-// Drawing (see work.h).
+// Draws the random elements of a work (see work.h).
 #include "tools/bench/generated/work.h"
 
 #include <algorithm>
@@ -14,11 +14,11 @@ constexpr uint64_t kSeed = 20260101;
 constexpr uint32_t kInputs = 1024;
 constexpr uint32_t kIndices = 16;
 constexpr uint32_t kOperands = 48;
-constexpr uint32_t kResults = 192;     // shared by the elements beyond
-constexpr uint32_t kArray = 50;        // rungs
+constexpr uint32_t kResults = 192;     // shared by further elements
+constexpr uint32_t kArray = 50;        // number of rungs
 constexpr uint32_t kPresetStepMs = 40; // a whole number of scans in each dialect
-constexpr uint32_t kPresets = 8;       // of counters
-constexpr uint32_t kLongMs = 800'000;  // no timer of a bench gets there
+constexpr uint32_t kPresets = 8;       // number of different presets of counters
+constexpr uint32_t kLongMs = 800'000;  // longer than any bench runs
 
 constexpr std::array kKinds = {
     KindRow{Kind::Bits, "bits", "bit logic"},
@@ -36,7 +36,7 @@ constexpr std::array kKinds = {
     KindRow{Kind::Full, "full", "full"},
 };
 
-// What is drawn for an element: in braces, which says the order of drawing for every compiler.
+// Random values of an element: initialised in braces, whose order of evaluation is the same for every compiler.
 struct Two {
   Contact first{}, second{};
 };
@@ -82,7 +82,7 @@ private:
     work_.firstHalf = first;
     many(size, draw);
   }
-  // One of alarms, one of the lamps for them, one of alarms, …
+  // Rungs of alarms and of their lamps in turn.
   void arrays(uint32_t size) {
     for (uint32_t i = 0; i < size; ++i) {
       if (i % kArray == 0) array_ = {.inputs = below(kInputs - kArray), .first = input(), .second = input()};
@@ -114,7 +114,7 @@ private:
 
   uint32_t below(uint32_t n) { return static_cast<uint32_t>(random_() % n); }
   Contact input() { return {below(kInputs), false}; }
-  Contact any() { return {below(work_.bits()), false}; }                 // an input, or a coil that was before
+  Contact any() { return {below(work_.bits()), false}; }                 // an input, or an earlier coil
   Contact contact() { return {below(work_.bits() + 1), below(3) == 0}; } // or the rung's own coil
   Contact firstHalf() { return {below(kInputs / 2), false}; }
   Contact secondHalf() { return {kInputs / 2 + below(kInputs / 2), false}; }
@@ -165,7 +165,7 @@ private:
     }
     add(e);
   }
-  // From operands alone, so that no result leaves the range of a double however long it runs.
+  // From operands only, so that no result exceeds the range of a double, however long it runs.
   void real() {
     work_.realOperands = kOperands;
     Element e{.first = input(), .a = below(kOperands), .b = below(kOperands)};
@@ -199,7 +199,7 @@ private:
   }
 
   struct Array {
-    uint32_t inputs = 0; // the first of neighbours
+    uint32_t inputs = 0; // index of the first of neighbours
     Contact first{}, second{};
   };
 

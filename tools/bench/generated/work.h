@@ -11,7 +11,7 @@ namespace rung::bench {
 enum class Op : uint8_t {
   Logic,    // coil := (first AND|OR second) AND third
   Timer,    // coil: `first` has been 1 for `preset` milliseconds
-  Counter,  // ring of 0 to `preset`, counts edges of `first`, `second` puts it to 0; coil: it is at `preset`
+  Counter,  // ring of 0 to `preset`: counts rising edges of `first`, `second` resets it to 0; coil: it is at `preset`
   Add,      // while `first` is 1: words[to] := words[a] + words[b], modulo 2^32
   Subtract, // the same with a difference
   Multiply, // the same with a product
@@ -35,13 +35,13 @@ struct Element {
   Contact first{}, second{}, third{};
   uint32_t coil = 0;
   uint32_t a = 0, b = 0, to = 0;
-  uint32_t number = 0; // among those of its kind that have state
+  uint32_t number = 0; // among the elements of its kind that have state
   uint32_t preset = 0;
 };
 
 enum class Kind : uint8_t {
   Bits,
-  Arrays, // alarms that stay until they are reset, and their lamps: rungs that are alike over neighbouring bits
+  Arrays, // alarms that stay until they are reset, and their lamps: isomorphic rungs over neighbouring bits
   TimersIdle,
   TimersRunning,
   Counters,
@@ -52,12 +52,12 @@ enum class Kind : uint8_t {
   MechanismsIdle,
   MechanismsWaiting,
   Mechanisms,
-  Full, // bits, and for each ten of them a timer, a counter and two of integer arithmetic
+  Full, // bits, and for each ten of them a timer, a counter and two integer operations
 };
 
 struct KindRow {
   Kind kind;
-  const char* name; // on the command line
+  const char* name; // as on the command line
   const char* title;
 };
 std::optional<Kind> kindFromName(std::string_view name);
@@ -69,17 +69,17 @@ constexpr uint32_t kEntries = 16;
 struct Work {
   Kind kind = Kind::Bits;
   std::vector<Element> elements;
-  uint32_t inputs = 0;   // bits that only the machine writes
-  uint32_t coils = 0;    // bits after them
-  uint32_t indices = 0;  // words that only the machine writes, the first ones below kEntries
-  uint32_t operands = 0; // words after them that only the machine writes
-  uint32_t results = 0;  // words after them
+  uint32_t inputs = 0;   // number of bits that only the machine writes
+  uint32_t coils = 0;    // number of bits after the inputs
+  uint32_t indices = 0;  // number of words that only the machine writes; the first ones hold values below kEntries
+  uint32_t operands = 0; // number of words after the indices that only the machine writes
+  uint32_t results = 0;  // number of words after the operands
   uint32_t realOperands = 0;
   uint32_t realResults = 0;
   uint32_t timers = 0, counters = 0, mechanisms = 0;
   bool hasTables = false;
-  bool changes = true; // the machine does something from scan to scan
-  // Where nothing changes: of the first half of the inputs and of the second.
+  bool changes = true; // whether the machine changes inputs from scan to scan
+  // Constant values of the first and of the second half of the inputs, if nothing changes.
   bool firstHalf = false, secondHalf = false;
 
   uint32_t bits() const { return inputs + coils; }
@@ -87,7 +87,7 @@ struct Work {
   uint32_t reals() const { return realOperands + realResults; }
 };
 
-// The same for the same arguments, for ever: published figures are of these programs.
+// The work for these arguments. It must never change: published figures are of these programs.
 Work drawWork(Kind kind, uint32_t size);
 
 } // namespace rung::bench

@@ -1,4 +1,4 @@
-// rung-bench-record SCENARIO: runs it with the interpreter and prints what its machine has written (recording.h).
+// rung-bench-record SCENARIO: runs the scenario on the interpreter and prints what its machine writes (recording.h).
 #include <exception>
 #include <iostream>
 #include <memory>

@@ -25,7 +25,7 @@ struct Recorder::Beside {
   rung::Image image;
   Replay replay;
   bool inSlots;
-  bool within = false; // a scan
+  bool within = false; // within a scan
   bool ended = false;  // the scenario has switched the program on again
   Recording recording;
   std::string problem;
@@ -33,7 +33,7 @@ struct Recorder::Beside {
 
 namespace {
 
-// The bytes that differ, in runs. What the compiler hides is the program's own.
+// The differing bytes, as runs of bytes. Hidden cells of the compiler are the program's own and left out.
 std::vector<Writes> differences(const runtime::Instance& from, const runtime::Instance& to) {
   std::vector<Writes> all;
   const rung_program& program = to.program();

@@ -7,19 +7,19 @@
 
 namespace rung::bench {
 
-// Looks on while the scenario runs, and has the same program beside it without the simulation: what that one needs to
-// begin each part with the same memory is what the machine has written. Where the scenario switches the program on
-// again, the recording ends.
+// Observes the scenario while it runs, and runs the same program beside it without the simulation: whatever must be
+// written into that copy so that it begins each part with the same memory is what the machine has written. The
+// recording ends where the scenario switches the program on again.
 class Recorder final : public scenario::Observer, public runtime::TaskWatch {
 public:
-  // Throws std::runtime_error where the program cannot be run by itself.
+  // Throws std::runtime_error if the program cannot run alone.
   Recorder(scenario::Session& session, const compiler::Compiled& program);
   ~Recorder() override;
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
 
   const Recording& recording() const;
-  // "" or why the recording is of no use.
+  // "" or why the recording cannot be used.
   const std::string& problem() const;
 
   void started(scenario::Session& session) override;

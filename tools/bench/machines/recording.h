@@ -7,28 +7,28 @@
 
 namespace rung::bench {
 
-// Bytes of a space that the machine has written before a part.
+// Bytes of a space that the machine wrote before a part.
 struct Writes {
   std::string space;
   uint32_t byte = 0;
   std::vector<uint8_t> bytes;
 };
 
-// What one call of the host runs: a scan, or of a program that runs in slots a slot.
+// The inputs and the result of one call of the host: a scan, or a slot of a program that runs in slots.
 struct Part {
   std::vector<Writes> writes;
-  uint64_t hash = 0; // of all spaces after it, by the interpreter
+  uint64_t hash = 0; // of all spaces after the part, as run by the interpreter
 };
 
 struct Recording {
-  std::string scenario; // that it was made of
+  std::string scenario; // the scenario that was recorded
   std::vector<Part> parts;
 };
 
 // As text: a line for the scenario, then a line for each part: its hash, and SPACE:BYTE=HEX for each write. Parts
 // without writes whose hash is that of the part before are counted (*N).
 std::string textOf(const Recording& recording);
-// Throws std::runtime_error with the line that is wrong.
+// Throws std::runtime_error that names the wrong line.
 Recording recordingOf(const std::string& text);
 
 } // namespace rung::bench

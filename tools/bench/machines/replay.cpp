@@ -33,7 +33,7 @@ void Replay::write(const Part& part) {
 
 uint64_t Replay::hash() const {
   const bool only = inside_.neededCopiesOnly();
-  inside_.setNeededCopiesOnly(false); // brings in what is left out
+  inside_.setNeededCopiesOnly(false); // needed to bring in the copies that are left out
   const uint64_t hash = hashOfAll();
   inside_.setNeededCopiesOnly(only);
   return hash;

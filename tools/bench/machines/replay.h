@@ -1,5 +1,5 @@
-// A PLC program with the control of its dialect, as a host of the runtime's library has it, and a recorded machine in
-// the place of pins.
+// A PLC program with the control of its dialect, as a host has it that uses the runtime library, and a recorded machine
+// in place of pins.
 #pragma once
 #include <cstdint>
 
@@ -11,15 +11,15 @@ namespace rung::bench {
 
 class Replay {
 public:
-  // Switched on cold. The image outlives it.
+  // Starts cold. The image must outlive the object.
   explicit Replay(const rung::Image& image);
 
-  // What the machine has written before a part. Throws std::runtime_error where the program has no such place.
+  // Writes what the machine wrote before the part. Throws std::runtime_error if the program has no such place.
   void write(const Part& part);
   void run() noexcept { runPart_(instance_.handle()); }
-  // Of all bytes of all spaces, the clock and the fault.
+  // Hash of all bytes of all spaces, the clock and the fault.
   uint64_t hash() const;
-  // Takes what a host would take between two parts.
+  // Empties the queues that a host would empty between two parts.
   void drain();
   const runtime::Instance& inside() const { return inside_; }
 

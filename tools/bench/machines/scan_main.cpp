@@ -1,7 +1,7 @@
-// rung-bench-scan PROGRAM.so RECORDING [FROM COUNT]: replays a recording in a host of the runtime's library and checks
-// the hash of each part. Under callgrind, started with --collect-atstart=no, only the parts FROM to FROM + COUNT are
-// counted, and of them what the host calls: neither what the machine writes nor the check, which is done after the last
-// part alone there. After the end of the recording nothing happens at the machine.
+// rung-bench-scan PROGRAM.so RECORDING [FROM COUNT]: replays a recording in a host that uses the runtime library and
+// checks the hash of each part. Under callgrind, started with --collect-atstart=no, only the parts FROM to FROM + COUNT
+// are counted, and of them only what the host calls: neither the machine's writes nor the check, which is then done
+// after the last part only. After the end of the recording the machine writes nothing.
 #include <valgrind/callgrind.h>
 
 #include <cstdlib>

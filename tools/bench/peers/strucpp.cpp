@@ -1,5 +1,5 @@
-// A program of STruC++ as a peer (generated/peer.h): the sources that it writes, and what its runtime does around a
-// scan.
+// A program of STruC++ as a peer (generated/peer.h): includes the sources that STruC++ generates, and does what its
+// runtime does around a scan.
 #include <new>
 
 #include "program.cpp"

@@ -1,5 +1,5 @@
-// rung-bench-services PROGRAM.so SCENARIO COUNT: plays the scenario with the program, then runs COUNT scans more. Under
-// callgrind, started with --collect-atstart=no, these alone are counted. The program is that of the scenario, built
+// rung-bench-services PROGRAM.so SCENARIO COUNT: plays the scenario with the program, then runs COUNT more scans. Under
+// callgrind, started with --collect-atstart=no, only these are counted. The program is that of the scenario, compiled
 // before.
 #include <valgrind/callgrind.h>
 

@@ -1,4 +1,4 @@
-// The lowering functions of the rows, and the module that they are part of. Those of ends, jumps, calls and the common
+// The lowering functions of the rows, and the lowering of a program. The functions of ends, jumps, calls and the common
 // line are in frontend/network/lower.
 #pragma once
 #include <memory>

@@ -1,5 +1,5 @@
-// Texts of the messages that bits of area A ask for (man. l.754-762), from a file beside the program: one
-// `NUMBER "text"` a line, `;` begins a comment. The number is 1 to 256 (P57) or the bit itself, A0.0 to A31.7.
+// Texts of the messages that bits of area A request (man. l.754-762), from a file beside the program: one `NUMBER
+// "text"` per line, `;` begins a comment. The number is 1 to 256 (P57) or the bit itself, A0.0 to A31.7.
 #pragma once
 #include <string_view>
 #include <vector>
@@ -11,11 +11,11 @@
 
 namespace rung::frontend::gsk {
 
-// `path` is relative to the folder of `program`. Reports what is wrong; what is right is in the result, by number.
+// `path` is relative to the folder of `program`. Mistakes are reported; the result has the correct entries, by number.
 std::vector<ir::MessageText> readMessages(SourceManager& sources, FileId program, std::string_view path,
                                           Diagnostics& diagnostics);
 
-// Warns of messages that coils ask for and that have no text, each at the first coil.
+// Warns of messages without a text that coils request, each at the first coil.
 void checkTexts(const network::Program& program, const std::vector<ir::MessageText>& texts, Diagnostics& diagnostics);
 
 } // namespace rung::frontend::gsk

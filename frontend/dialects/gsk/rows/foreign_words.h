@@ -1,5 +1,5 @@
-// Words of IEC 61131 instruction lists, of FANUC, Mitsubishi, Omron, Siemens and TECHNOL programs, and what GSK has for
-// them (man. Part I §4, §5). Included by language.cpp only.
+// Words of IEC 61131 instruction lists, of FANUC, Mitsubishi, Omron, Siemens and TECHNOL programs, and their
+// equivalents in GSK (man. Part I §4, §5). Included by language.cpp only.
 #pragma once
 #include "frontend/sema/foreign_word.h"
 
@@ -29,7 +29,7 @@ inline constexpr std::string_view kAndBracket = "LD where the bracket begins, AN
 inline constexpr std::string_view kOrBracket = "LD where the bracket begins, ORB where it ends";
 
 inline constexpr frontend::ForeignWord kForeignWords[] = {
-    // the same with the same operand
+    // equivalent, with the same operand
     {"=", "OUT", true},
     {"AND LD", "ANB", true},
     {"AND NOT", "ANI", true},
@@ -64,7 +64,7 @@ inline constexpr frontend::ForeignWord kForeignWords[] = {
     {"WRN", "OUTI", true},
     {"WRT", "OUT", true},
     {"WRT.NOT", "OUTI", true},
-    // said otherwise here
+    // expressed differently here
     {")", "ANB or ORB where a bracket ends"},
     {"A", kBegins},
     {"ADD", "the function ADDB"},

@@ -1,5 +1,5 @@
-// The instruction table of the dialect: one row an instruction, with its lowering. Everything that is data about an
-// instruction is here only; README.md says how to add one.
+// The instruction table of the dialect: one row per instruction, with its lowering. All data about an instruction is
+// only here; README.md says how to add one.
 #pragma once
 #include <span>
 #include <string_view>
@@ -12,10 +12,10 @@ using Row = network::LoweredRow;
 using network::LowerFn;
 
 std::span<const Row> allRows();
-// The data alone of a box's row; null when there is none.
+// The data of a box's row without its lowering; null if there is none.
 const frontend::InstructionInfo* findBox(std::string_view mnemonic);
 
-// All rows, by pointers.
+// Pointers to all rows.
 std::span<const network::Row* const> networkRows();
 std::span<const frontend::InstructionInfo* const> instructionInfos();
 

@@ -1,4 +1,4 @@
-// Kinds of operands: what a row may ask for. A new kind is one descriptor here, and the rows that name it.
+// The kinds of operands of the rows. A new kind is one descriptor here, and the rows that refer to it.
 #pragma once
 #include "frontend/dialects/gsk/areas.h"
 #include "frontend/network/operand_kind.h"

@@ -1,5 +1,5 @@
-// What the rows of the table are made of: operands, conditions, shorthands. Included by the rows_*.h only.
-// Texts of rows restate the manual; P numbers mark our reading where it is silent.
+// Parts of rows: operands, conditions, shorthands. Included by the rows_*.h only. Texts of rows restate the manual; P
+// numbers mark interpretations where it is silent.
 #pragma once
 #include <string_view>
 

@@ -6,7 +6,7 @@ namespace rung::frontend::gsk {
 
 inline constexpr std::string_view kAfterEnd2 = "the part after END2";
 
-// What begins or ends a part of the program is alone at the left rail.
+// An instruction that begins or ends a part of the program must be the only one at the left rail.
 constexpr Row markShape(std::string_view group, Control control, OperandList operands = {}, std::string_view tasks = {},
                         LowerFn lower = &lowerMark) {
   return {{.info = {.group = group, .operands = operands, .placement = Placement::AtRail, .tasks = tasks},

@@ -7,7 +7,7 @@
 
 namespace rung::frontend::gsk {
 
-// The fixed part of a window block and the shortest data; how long the data are is known when the program runs.
+// The fixed part of a window block and the shortest data; the length of the data is known at run time only.
 inline constexpr uint32_t kWindowBlockBytes = nc::gsk::kWindowDataAt + 1;
 inline constexpr uint32_t kZoneBlockBytes = 1 + 7 * 4;  // man. l.3437-3447
 inline constexpr uint32_t kRangeBlockBytes = 1 + 2 * 4; // P56

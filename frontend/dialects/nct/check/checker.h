@@ -1,4 +1,4 @@
-// Checks the rungs of a program one by one: what each element is, where it may be, what its operands are.
+// Checks the rungs of a program one by one: the row of each element, its position in the drawing, its operands.
 #pragma once
 #include <unordered_map>
 #include <unordered_set>
@@ -16,7 +16,7 @@ public:
 
 private:
   struct Owner {
-    SourceRange once;         // of the coil, timer, …; invalid: none yet
+    SourceRange once;         // of the coil, timer, …; invalid: none so far
     const Row* row = nullptr; // its row
     SourceRange setReset;     // of the first SET or RST
   };
@@ -32,7 +32,7 @@ public:
 
 private:
   const Row* rowOf(const ladder::Element& element, const Operand* first);
-  struct Numbers { // what is known of a box by its constants and the signals of the NC
+  struct Numbers { // kinds of numbers that a box has, by its constants and the signals of the NC
     bool integers = false;
     bool doubles = false;
   };
@@ -66,9 +66,9 @@ private:
   OutputReservations& reservations_;
   frontend::Analysis& analysis_;
   Diagnostics& diagnostics_;
-  std::string_view module_; // its name, as written
+  std::string_view module_; // name of the module, as written
   bool inInt0_;
-  std::unordered_set<uint32_t> dueNets_; // after the rung's boxes that must have a coil
+  std::unordered_set<uint32_t> dueNets_; // nets after boxes of the rung that require a coil
   const nc::Signal* handwheel_;          // HWMOVE
   const nc::Signal* fastClock_;          // N_P2MS
 };

@@ -1,4 +1,5 @@
-// Texts of messages: what their placeholders take, and whether the boxes that send them give it (man. l.2745-2773).
+// Texts of messages: the kinds of their placeholders, and whether the boxes that send them supply such values (man.
+// l.2745-2773).
 #pragma once
 #include <initializer_list>
 #include <unordered_map>
@@ -15,13 +16,13 @@ struct CheckedText {
 };
 using TextKinds = std::unordered_map<uint32_t, CheckedText>; // by the message's number
 
-// Reports placeholders that are none.
+// Reports invalid placeholders.
 TextKind checkText(const Word& text, Diagnostics& diagnostics);
-// Reports boxes with a constant number whose text wants another kind of number. A box whose number is computed prints
-// the number that it has.
+// Reports boxes with a constant message number whose text needs another kind of number. A box with a computed message
+// number prints its number in any case.
 void checkMessages(const TypedModule& module, const TextKinds& texts, Diagnostics& diagnostics);
 
-// Warns of texts that no box of the program shows, and of boxes without one where others have theirs.
+// Warns of texts that no box of the program shows, and of boxes with a constant number that has no text.
 void checkMessageNumbers(std::initializer_list<const TypedModule*> modules, const TextKinds& texts,
                          Diagnostics& diagnostics);
 

@@ -8,9 +8,9 @@
 
 namespace rung::frontend::nct {
 
-// What the source says beside rungs.
+// The texts of the source.
 struct Texts {
-  std::vector<ir::MessageText> messages; // and buttons, see nct.h
+  std::vector<ir::MessageText> messages; // and titles of buttons, see nct.h
 };
 
 std::unique_ptr<ir::Module> buildModule(const Program& program, Symbols& symbols, const Texts& texts,

@@ -1,4 +1,4 @@
-// What a lowering function works with: the builder, the memory of the dialect, its operands and the power at its pins.
+// The context of a lowering function: the builder, the memory of the dialect, the operands and the power at the pins.
 #pragma once
 #include <span>
 #include <string>
@@ -14,13 +14,13 @@
 
 namespace rung::frontend::nct {
 
-// Makes the state slots of a routine's elements. Their keys name the element itself, so that they stay the same
-// whatever changes around it: routine, instruction and operands, with a number where several are alike.
+// Makes the state slots of a routine's elements. Their keys describe the element itself, so that they do not change
+// with other edits: routine, instruction and operands, with a number if several are equal.
 class SlotMaker {
 public:
   SlotMaker(ir::Module& module, std::string_view routine) : module_(module), routine_(routine) {}
   void setElement(std::string text);
-  // `role` distinguishes the slots of one element. Elements without a slot have no number.
+  // `role` distinguishes the slots of one element. Elements without a slot are not numbered.
   std::string key(std::string_view role);
   ir::SlotId make(std::string_view role, ir::Type type, int64_t init = 0, bool transient = false);
 
@@ -28,14 +28,14 @@ private:
   ir::Module& module_;
   std::string_view routine_;
   std::string element_;
-  bool numbered_ = false;     // element_ has its number
+  bool numbered_ = false;     // whether element_ has its number
   frontend::Numbering alike_; // elements with a slot so far, by their text
 };
 
-// Time as the runs of a task see it.
+// Time since the last run of a task.
 struct RunTime {
-  // i32, written where a run begins: the milliseconds since the run before. Invalid: no timer needs it, or the runs are
-  // not whole milliseconds apart, so that each timer has its own rest.
+  // i32, written at the beginning of a run: milliseconds since the last run. Invalid: no timer needs it, or the runs
+  // are not whole milliseconds apart, so that each timer keeps its own remainder.
   ir::SlotId passedMs;
 };
 
@@ -49,17 +49,18 @@ struct SharedWords {
   }
 };
 
-// What boxes share with the NC: the services of the program, and words in hidden spaces that the host knows by name.
+// Things that boxes share with the NC: the services of the program, and words in hidden spaces that the host finds by
+// name.
 class Shared {
 public:
   // `given` may be null: the module is not compared with another.
   Shared(ir::Module& module, ir::RoutineId routine, ir::GivenNumbers* given)
       : module_(module), routine_(routine), given_(given) {}
   ir::ServiceId service(nc::nct::ServiceKind kind) { return frontend::service(module_, nc::nct::service(kind)); }
-  // Words of this box alone, under its key: a hidden symbol, so that they are found again in a changed program. The
-  // space is made when it is asked for first.
+  // Words of this box only, under its key: a hidden symbol, so that they are found again in a changed program. The
+  // space is made on first use.
   SharedWords words(std::string_view space, uint32_t count, const std::string& key);
-  // The first of them by its number in the space, in the routine's last rung.
+  // The number in the space of the first of the words, in the routine's last rung.
   ir::ValueId number(ir::RungBuilder& b, ir::Type type, const SharedWords& words);
 
 private:
@@ -73,19 +74,19 @@ struct Lowering {
   Memory& memory;
   SlotMaker& slots;
   Shared& shared;
-  RunTime time; // where each run evaluates the box exactly once; else without passedMs
+  RunTime time; // set if each run evaluates the box exactly once; otherwise without passedMs
   std::span<const Operand> operands;
   std::span<const ir::ValueId> pins; // invalid: the left rail, always 1
   int variant = 0;
   char edge = 0; // '@' or '%' of a contact
-  // What the element itself asks, where pass() joined it with the power; its output is more than that.
+  // The element's own condition, set by pass(), before it is combined with the power to give the output.
   ir::ValueId condition{};
 
   // The power at a pin as a value.
   ir::ValueId power(size_t pin = 0) { return pins[pin].valid() ? pins[pin] : b.bit(true); }
   // value AND the power at the first pin.
   ir::ValueId gate(ir::ValueId value) { return pins[0].valid() ? b.and_(pins[0], value) : value; }
-  // The output of a contact, which passes the power on while the value is 1.
+  // The output of a contact, which passes the power on if the value is 1.
   ir::ValueId pass(ir::ValueId value) {
     condition = value;
     return gate(value);
@@ -93,8 +94,8 @@ struct Lowering {
 };
 
 // --- boxes ----------------------------------------------------------------------------------------------------------
-// Runs `body` when `valid` (invalid id: always) holds. An operand that is not valid sets FL_ER, leaves everything else
-// alone and makes the output 0 (man. l.729). `body` gives the output, an invalid id for "always 1"; so does guarded.
+// Runs `body` if `valid` (invalid id: always) holds. An invalid operand sets FL_ER, leaves everything else unchanged
+// and makes the output 0 (man. l.729). `body` returns the output, an invalid id for "always 1"; so does guarded.
 template <class Body>
 ir::ValueId guarded(Lowering& box, ir::ValueId valid, Body body) {
   if (!valid.valid()) return body();
@@ -109,8 +110,8 @@ ir::ValueId guarded(Lowering& box, ir::ValueId valid, Body body) {
   });
 }
 
-// A box that works while its first pin has power: `body` evaluates the operands, so that a box at rest costs a test. It
-// gives the output, an invalid id for "always 1"; without power the output is 0.
+// A box that works while its first pin has power: `body` evaluates the operands, so that an idle box costs only a test.
+// It returns the output, an invalid id for "always 1"; without power the output is 0.
 template <class Body>
 ir::ValueId execute(Lowering& box, Body body) {
   ir::RungBuilder& b = box.b;
@@ -126,7 +127,7 @@ ir::ValueId execute(Lowering& box, Body body) {
   return b.endIf(std::span(&off, 1)).front();
 }
 
-// Of the power at a pin; `role` names the memory of it.
+// Of the power at a pin; `role` names the slot of the former value.
 ir::ValueId risingEdge(Lowering& box, std::string_view role, size_t pin);
 
 // --- lowering functions, by family ----------------------------------------------------------------------------------
@@ -153,7 +154,7 @@ ir::ValueId lowerDiv(Lowering& box);
 
 enum TimerVariant : int { kOnDelay, kOffDelay, kTimedPulse };
 ir::ValueId lowerTimer(Lowering& box);
-RunTime lowerRunTime(ir::RungBuilder& b, SlotMaker& slots); // what a run begins with where timers need it
+RunTime lowerRunTime(ir::RungBuilder& b, SlotMaker& slots); // what a run begins with if timers need it
 enum CounterVariant : int { kStopping, kRing };
 ir::ValueId lowerCounter(Lowering& box);
 

@@ -10,20 +10,20 @@
 
 namespace rung::frontend::nct {
 
-// What all modules of a program share while they are lowered.
+// Shared by all modules of a program during lowering.
 struct LoweringContext {
   ir::Module& module;
   const Config& config;
   const MemorySpaces& spaces;
   WrittenRange& written;
   const SourceManager& sources;
-  ir::Marks* marks = nullptr;                          // null: not asked for
+  ir::Marks* marks = nullptr;                          // null: not requested
   ir::GivenNumbers* given = nullptr;                   // null: not compared with another version
   std::unordered_map<uint32_t, ir::FileIndex> files{}; // by FileId
   std::unordered_map<uint64_t, uint32_t> sameText{};   // rungs with equal texts so far, for their keys
 };
 
-// Adds the routines of the module; the first of them is the entry.
+// Adds the routines of the module; the first one is the entry.
 ir::RoutineId lowerModule(LoweringContext& context, const TypedModule& module);
 
 } // namespace rung::frontend::nct

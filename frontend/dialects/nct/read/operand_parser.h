@@ -1,5 +1,5 @@
-// Reads operands (man. §2, §4.5-4.8): what is written, whatever the instruction wants. Every function reports its
-// mistakes at the exact characters and then gives nothing (or Form::Bad).
+// Reads operands (man. §2, §4.5-4.8), independently of the instruction. Every function reports its mistakes at the
+// exact characters and then returns nothing (or Form::Bad).
 #pragma once
 #include <optional>
 
@@ -7,26 +7,26 @@
 
 namespace rung::frontend::nct {
 
-// The characters of `part`, a piece of word.text, in the source.
+// The characters of `part`, which must be a part of word.text, in the source.
 SourceRange rangeOf(const Word& word, std::string_view part);
 
-// How a number without the # or * of a constant, or of another language, is written here, where it is one.
-// A valid range is where it is; of a number of another language, whose value is certain, there is a fix.
+// Adds a note how a number without the # or * of a constant, or in the form of another language, is written here. If
+// the range is valid and the value of a foreign number is certain, with a fix.
 void noteConstant(DiagBuilder& report, std::string_view text, const SourceManager& sources, SourceRange range);
 
-// `text`, a piece of `word`, begins with # or *.
+// `text`, a part of `word`, begins with # or *.
 std::optional<Constant> parseConstant(const Word& word, std::string_view text, const SourceManager& sources,
                                       Diagnostics& diagnostics);
 
 struct ParsedAddress {
   Address address;
-  const Symbol* base = nullptr; // null: it is digits
+  const Symbol* base = nullptr; // null: digits
 };
-// Without modifiers. Names are looked up in `symbols`.
+// Reads an address without modifiers. Names are looked up in `symbols`.
 std::optional<ParsedAddress> parseAddress(const Word& word, std::string_view text, Symbols& symbols,
                                           Diagnostics& diagnostics);
 
-// An operand of a contact, coil or box, with its modifiers. A quoted word is Form::Text.
+// Reads an operand of a contact, coil or box, with its modifiers. A quoted word is Form::Text.
 Operand parseOperand(const Word& word, Symbols& symbols, Diagnostics& diagnostics);
 
 // The name of a quantity that SCP queries: a constant, its index in the list.

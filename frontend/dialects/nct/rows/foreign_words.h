@@ -1,5 +1,5 @@
-// Boxes of IEC 61131, FANUC, Mitsubishi and Rockwell ladders, and what NCT has for them. Included by instructions.cpp
-// only.
+// Boxes of IEC 61131, FANUC, Mitsubishi and Rockwell ladders, and their equivalents in NCT. Included by
+// instructions.cpp only.
 #pragma once
 #include "frontend/sema/foreign_word.h"
 
@@ -30,7 +30,7 @@ inline constexpr std::string_view kUseCompare =
 inline constexpr std::string_view kUseMessage = "MSG, and `message NUMBER \"text\"` for its text";
 
 inline constexpr frontend::ForeignWord kForeignWords[] = {
-    // the same with the same operands
+    // equivalent, with the same operands
     {"CAL", "SBS", true},
     {"CALL", "SBS", true},
     {"EQ", "CEQ", true},
@@ -47,7 +47,7 @@ inline constexpr frontend::ForeignWord kForeignWords[] = {
     {"SRET", "RET", true},
     {"TOF", "TOFFD", true},
     {"TON", "TOND", true},
-    // said otherwise here
+    // expressed differently here
     {"ABS", kUseSign},
     {"ADDB", kUseAdd},
     {"ADDD", kUseAddEither},

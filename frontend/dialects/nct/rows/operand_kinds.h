@@ -1,21 +1,21 @@
-// Kinds of operands: what a row may ask for. A new kind is one descriptor here, and the rows that name it.
+// The kinds of operands of the rows. A new kind is one descriptor here, and the rows that refer to it.
 #pragma once
 #include "frontend/dialects/nct/read/symbols.h"
 #include "frontend/table/instruction.h"
 
 namespace rung::frontend::nct {
 
-// How the word of an operand is read.
+// How the word of an operand is parsed.
 enum class OperandClass : uint8_t { Value, Label, Scope, Text };
 
-// What the check asks for, of OperandClass::Value.
+// Properties that the check of an operand uses, mostly for OperandClass::Value.
 struct OperandTraits {
   OperandClass parse = OperandClass::Value;
-  Form form = Form::Word;       // of a place: Word or Bit; Constant: no place may be written
+  Form form = Form::Word;       // of a place: Word or Bit; Constant: no place is allowed
   uint32_t words = 1;           // of a place
-  bool userMemory = false;      // the place is in the user memory
-  uint8_t constants = 0;        // which may be written: bits of ConstantKind
-  std::string_view wanted = {}; // where constants may: what may be written, in the words of a message
+  bool userMemory = false;      // the place must be in the user memory
+  uint8_t constants = 0;        // allowed constants: bits of ConstantKind
+  std::string_view wanted = {}; // if constants are allowed: what is expected, in the words of a message
 };
 
 struct OperandKind : frontend::OperandKindInfo, OperandTraits {};

@@ -28,7 +28,7 @@ constexpr Row arrayServiceShape(CheckFn check) {
 
 inline constexpr Row kNcRows[] = {
     {.info = {.mnemonic = "MOVCMND",
-              // The contents print MOVCMND (l.135), the chapter the others, too (l.3052, l.3155).
+              // The table of contents prints MOVCMND (l.135), the chapter also the others (l.3052, l.3155).
               .aliases = {"MOVCMD", "MOVCMMD", "MOVCMO"},
               .title = "axis control",
               .group = "nc-service",

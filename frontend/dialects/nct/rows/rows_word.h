@@ -7,7 +7,7 @@ namespace rung::frontend::nct {
 
 inline constexpr frontend::PinInfo kEnable{"EN", "enables the instruction in every cycle"};
 
-// Result and one source.
+// Operands: result and one source.
 constexpr Row convertShape(std::string_view group, const OperandKind& resultKind, const OperandKind& sourceKind,
                            LowerFn lower) {
   return {.info = {.group = group,
@@ -18,7 +18,7 @@ constexpr Row convertShape(std::string_view group, const OperandKind& resultKind
           .lower = lower};
 }
 
-// Result, a register and a second operand.
+// Operands: result, a register and a second operand.
 constexpr Row binaryShape(std::string_view group, const OperandKind& secondKind, LowerFn lower) {
   return {.info = {.group = group,
                    .pins = {kEnable},

@@ -1,4 +1,4 @@
-// What the names and operands of a checked program mean, for tools.
+// The meaning of the names and operands of a checked program, for tools.
 #pragma once
 
 #include "frontend/dialects/technol/check/typed.h"

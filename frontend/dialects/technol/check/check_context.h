@@ -1,4 +1,4 @@
-// What the check of a row sees: the statement, and what the statements before it have left.
+// The context of a row's check: the statement, and the state after the statements before it.
 #pragma once
 #include "frontend/dialects/technol/check/equation.h"
 #include "frontend/dialects/technol/program.h"
@@ -6,41 +6,40 @@
 
 namespace rung::frontend::technol {
 
-// Which procedures call which.
+// The calls between procedures.
 
 class ProcedureCalls {
 public:
   explicit ProcedureCalls(const SourceProgram& program)
       : graph_(program.procedures.size()), onMessage_(program.procedureNamed(kOnMessage)) {}
 
-  // A call in a procedure, or outside all of them (kNone).
+  // Adds a call in a procedure, or outside of all (kNone).
   void add(uint32_t caller, uint32_t callee, SourceRange at) {
     if (caller != kNone) graph_.add(caller, callee, at);
   }
-  // A message that is made calls the procedure of messages, where there is one; not inside that one.
+  // A message calls the procedure of messages, if there is one; except within that procedure.
   void addMessage(uint32_t caller, SourceRange at) {
     if (onMessage_ != kNone && caller != onMessage_) add(caller, onMessage_, at);
   }
-  // Reports circles, and where there are none chains of calls that are too long.
+  // Reports recursive calls, or if there are none, chains of calls that are too long.
   void check(const SourceProgram& program, Diagnostics& diagnostics) const;
 
 private:
   void checkDepth(std::span<const uint32_t> calleesFirst, Diagnostics& diagnostics) const;
 
-  CallGraph graph_; // of SourceProgram::procedures
+  CallGraph graph_; // numbered as SourceProgram::procedures
   uint32_t onMessage_ = kNone;
 };
 
-// What the registers hold as far as it shows in the order of the source: values that a wait loses, and reals that are
-// calculated with as integers.
+// Checks registers in the order of the source: values that a wait loses, and reals that are used as integers.
 
-// RLO and DR after a wait, when other code has run.
+// RLO and DR after a wait, during which other code has run.
 class LostRegisters {
 public:
   explicit LostRegisters(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
 
   void forget() { rlo_ = dr_ = false; }
-  // Before and after the work of a statement; `waits`: control may leave the unit in it.
+  // Called before and after the statement's work; `waits`: control may leave the unit in it.
   void begin(const Statement& statement, bool readsDr);
   void finish(const Row& row, bool waits);
 
@@ -52,7 +51,7 @@ private:
   bool dr_ = false;
 };
 
-// What an instruction does with the number in DR.
+// How an instruction uses the number in DR.
 enum class DrUse : uint8_t { LoadInteger, LoadReal, Integer, Real };
 
 // The rules on mixing real and integer arithmetic (man. l.1551).
@@ -68,7 +67,7 @@ private:
 
   Diagnostics& diagnostics_;
   State state_ = State::No;
-  const Statement* integer_ = nullptr; // what worked on the real value
+  const Statement* integer_ = nullptr; // the statement that used the real as an integer
 };
 
 struct CheckContext {
@@ -81,13 +80,13 @@ struct CheckContext {
   ProcedureCalls& calls;
 
   DiagBuilder report(Diag id, SourceRange at) const { return diagnostics.report(id, at); }
-  // False: the report is wrong-operand-kind.
+  // Reports wrong-operand-kind and returns false.
   bool wrongKind(const Operand& operand, std::string_view is, std::string_view wanted) const {
     return reportWrongKind(diagnostics, operand, is, wanted);
   }
 };
 
-// Whether a text lies where its operand says; with BX it shows when the program runs. False after a report.
+// Whether there is a text at the operand's place; with BX this is known at run time only. False after a report.
 bool textFits(const CheckContext& c, const Operand& operand);
 
 } // namespace rung::frontend::technol

@@ -1,4 +1,4 @@
-// The logic equation and its stack as far as the language decides them statically, in the order of the source (man.
+// The logic equation and its stack, as far as the language determines them statically, in the order of the source (man.
 // l.225-275).
 #pragma once
 
@@ -13,20 +13,20 @@ class Equation {
 public:
   explicit Equation(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
 
-  // Before and after the work of a statement.
+  // Called before and after the statement's work.
   StackUse begin(const Statement& statement);
   void finish(const Row& row) { open_ = open_ && !row.info.terminating; }
-  // An unknown statement: it may be the one that ends the equation, stores a value or takes one.
+  // An unknown statement: it may end the equation, push a value or pop one.
   void unknown() { hasUnknown_ = lostTrack_ = true; }
   // The flags of a macro override what its statements did (man. l.20536).
   StackUse beginMacro(const Statement& statement);
   void endMacro(const Statement& statement);
-  // Where the stack must be empty: CHECK, and the borders of units, which end the equation too.
+  // Positions where the stack must be empty: CHECK, and the ends of units, which also end the equation.
   void checkBalance(SourceRange at, std::string_view where);
   void end(SourceRange at, std::string_view where);
 
 private:
-  // Before a macro with an effect of its own.
+  // State before a macro that declares its own effect.
   struct MacroState {
     std::vector<SourceRange> stored;
     bool open = false;
@@ -39,11 +39,11 @@ private:
 
   Diagnostics& diagnostics_;
   bool open_ = false;
-  bool hasUnknown_ = false;         // in the open equation
-  bool lostTrack_ = false;          // since the stack was empty for certain
+  bool hasUnknown_ = false;         // of the open equation
+  bool lostTrack_ = false;          // since the stack was last known to be empty
   SourceRange begin_;               // of the open equation
-  std::vector<SourceRange> stored_; // values on the stack: what stored them
-  uint32_t lost_ = 0;               // values that the stack did not hold
+  std::vector<SourceRange> stored_; // values on the stack, as the statements that pushed them
+  uint32_t lost_ = 0;               // number of values popped from an empty stack
   std::vector<MacroState> macros_;
 };
 

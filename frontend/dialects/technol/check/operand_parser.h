@@ -5,41 +5,41 @@
 
 namespace rung::frontend::technol {
 
-// Parses the operands of one statement; reports everything that is wrong with them.
+// Parses the operands of one statement; reports all mistakes in them.
 class OperandParser {
 public:
-  // The texts of operands go to `typed`.
+  // The texts of operands are stored in `typed`.
   OperandParser(TypedProgram& typed, Symbols& symbols, std::string_view axisNames, Diagnostics& diagnostics)
       : program_(typed.source), declarations_(typed.declarations), symbols_(symbols), axisNames_(axisNames),
         diagnostics_(diagnostics), texts_(typed.texts) {}
 
-  // False after a report. The operands follow in `out`, one an operand of the source and NotGiven where the row allows
-  // more.
+  // False after a report. The operands are appended to `out`, one per operand of the source, and NotGiven for those
+  // that are left out.
   bool parse(const Statement& statement, std::vector<Operand>& out);
 
 private:
-  // What an address expression comes to: a place in a space, or a constant.
+  // The value of an address expression: a place in a space, or a constant.
   struct Address {
     bool hasBase = false;
-    bool isBit = false; // the base is the name of a bit: its byte
+    bool isBit = false; // the base is the name of a bit and means its byte
     bool isText = false;
     bool indexed = false;
     bool isReal = false;
     ir::SpaceId space;
-    int64_t byte = 0; // with a base: in its space; else the value
+    int64_t byte = 0; // with a base: offset in its space; otherwise the value
     double real = 0;
     ir::Type type = ir::Type::None;
-    int64_t begin = 0; // of the base object
+    int64_t begin = 0; // offset of the base object
     int64_t end = 0;
     Protection protection = Protection::None;
     std::string_view name; // of the base
     const char* structure = "";
-    uint32_t own = kNone; // the program's own structure that it is, in Declarations::structures
+    uint32_t own = kNone; // its structure, if the program defines it: index in Declarations::structures
   };
 
   bool one(const OperandInfo& info, std::span<const Token> tokens, Operand& out);
   bool waitOperands(std::span<Operand> operands);
-  // One for each alternative of Takes; there are tokens.
+  // One overload for each alternative of Takes; `tokens` is not empty.
   using Tokens = std::span<const Token>;
   bool read(const BitKind& kind, const OperandInfo& info, Tokens tokens, Operand& out);
   bool read(const NumberKind& kind, const OperandInfo& info, Tokens tokens, Operand& out);
@@ -86,10 +86,10 @@ private:
     return reportWrongKind(diagnostics_, operand, is, wanted);
   }
   bool syntax(std::string_view expected, std::span<const Token> tokens);
-  bool syntax(std::string_view expected, std::span<const Token> tokens, SourceRange otherwise); // where there are none
-  // Null where there is none, or it is declared in error: that has been reported.
+  bool syntax(std::string_view expected, std::span<const Token> tokens, SourceRange otherwise); // for no tokens
+  // Null if there is none, or its declaration has an error, which has been reported.
   const Symbol* usable(uint32_t index) const;
-  // The symbol of a name, which is used.
+  // The symbol of a name; records the use.
   uint32_t note(const Token& name, uint32_t symbol);
   uint32_t require(const Token& name) { return symbols_.require(name, file_); }
 

@@ -1,5 +1,5 @@
-// The checks of rows that look at several operands at once or at the place of the statement, by family. They run when
-// each operand by itself is right.
+// The checks of rows on several operands at once or on the position of the statement, by family. They run if each
+// operand is right by itself.
 #pragma once
 #include <span>
 
@@ -31,7 +31,7 @@ void checkNumberToText(const CheckContext& c, std::span<const Operand> o, int);
 void checkCopyBytes(const CheckContext& c, std::span<const Operand> o, int);
 void checkCompareBytes(const CheckContext& c, std::span<const Operand> o, int);
 
-// Messages, mechanisms, what is shared with the control.
+// Messages, mechanisms, data shared with the control.
 void checkMessage(const CheckContext& c, std::span<const Operand> o, int);
 void checkBitMessage(const CheckContext& c, std::span<const Operand> o, int);
 void checkDefine(const CheckContext& c, std::span<const Operand> o, int);

@@ -1,4 +1,4 @@
-// Timed blocks and the clocks that they go by (man. l.857-882): one of the 20 ms task, one of the fast task.
+// Timed blocks and their clocks (man. l.857-882): one of the 20 ms task, one of the fast task.
 #pragma once
 
 #include <array>
@@ -12,14 +12,14 @@ class Clocks {
 public:
   Clocks(const SourceProgram& program, Emitter& emitter, State& state, uint32_t periodUs);
 
-  // Around a module: its clock, and the time that has passed.
+  // Called at the beginning and end of a module: advance its clock, and the time that has passed.
   void enter(ModuleKind kind);
   void leave(ModuleKind kind);
-  // An event comes between two cycles.
+  // Events are called between two cycles.
   void callEvent(ir::RoutineId procedure);
   // Whether a timed block runs, in a module or in a procedure.
   ir::ValueId isDue(TimedKind kind, ModuleKind module, bool inProcedure);
-  // Cycles of each period that have passed.
+  // Number of cycles of each period that have passed.
   std::span<const ir::SlotId> phases() const { return phases_; }
 
 private:
@@ -33,10 +33,10 @@ private:
   Emitter& emitter_;
   State& state_;
   uint32_t periodUs_;
-  std::array<std::array<bool, 4>, 2> used_{}; // of the 20 ms task and of the fast one; by TimedKind
+  std::array<std::array<bool, 4>, 2> used_{}; // by task (20 ms, fast) and by TimedKind
   std::map<std::pair<bool, TimedKind>, ir::SlotId> due_;
   std::vector<ir::SlotId> phases_;
-  ir::SlotId clock_; // of the running module, where procedures have timed blocks
+  ir::SlotId clock_; // of the running module, if procedures have timed blocks
 };
 
 } // namespace rung::frontend::technol

@@ -1,5 +1,5 @@
-// A request to a device of the control (rtlib/nc/technol/services.h) as operations: its arguments, its results, and the
-// bytes that its answer brings.
+// Operations of a request to a device of the control (rtlib/nc/technol/services.h): its arguments, its results, and the
+// bytes of its answer.
 #pragma once
 #include <string>
 #include <vector>
@@ -13,32 +13,32 @@
 
 namespace rung::frontend::technol {
 
-// What the data operand of a service holds. Binary: as many bytes as there is room for; Bytes: as many as another
-// operand says.
+// The form of a service's data operand. Binary: as many bytes as there is room for; Bytes: as many as another operand
+// says.
 enum class DataForm : uint8_t { None, Integer, Real, Text, Binary, Bytes };
 
 class DeviceRequest {
 public:
-  // Of the current statement; the second one where its mnemonic has several services.
+  // The service of the current statement; the second constructor is for a mnemonic with several services.
   explicit DeviceRequest(Lowering& context);
   DeviceRequest(Lowering& context, nc::technol::ServiceKind kind)
       : DeviceRequest(context, nc::technol::deviceService(kind)) {}
 
-  // The next argument, i64. Gives it.
+  // Adds the next argument, i64. Returns it.
   ir::ValueId add(ir::ValueId value);
-  // An operand that is a number, a bit or a word; not given: nc::technol::kNotGiven. `guard` as for Memory::reach.
+  // Adds an operand that is a number, a bit or a word; not given: nc::technol::kNotGiven. `guard` as for Memory::reach.
   ir::ValueId addOperand(uint32_t number, const Operand& operand, ir::ValueId guard = {});
-  // Gives the ticket.
+  // Returns the ticket.
   ir::ValueId send();
-  // A result by its name; what the table says where there was no answer.
+  // A result by its name; the table's default value if there was no answer.
   ir::ValueId result(std::string_view name);
   ir::ValueId flag(std::string_view name); // as a bit
   ir::ValueId real(std::string_view name);
-  // The request that was sent before.
+  // Refers to a request sent earlier.
   void use(ir::ValueId ticket);
-  // Asks the control how far it is: one call for this and for all results that follow.
+  // Polls the request: one call for this and for all results after it.
   ir::ValueId answered();
-  // After `answered`: the control knows nothing of it any more, as the program has not asked for so long.
+  // After `answered`: the control no longer has the request, because the program has not polled it for too long.
   ir::ValueId forgotten() const { return forgotten_; }
 
 private:
@@ -52,14 +52,14 @@ private:
   ir::ValueId forgotten_;
 };
 
-// The operand that says how many bytes of the data are meant; null where the row has none.
+// The operand with the number of data bytes; null if the row has none.
 const Operand* lengthIn(std::span<const OperandInfo> infos, std::span<const Operand> operands);
 // The argument for `count` bytes of an area, i32.
 ir::ValueId bytesArgument(Emitter& emitter, const Area& area, ir::ValueId count);
-// Puts the first `count` bytes of an answer, at most `most`, there.
+// Stores the first `count` bytes of an answer, at most `most`, in the area.
 void fetchBytes(Emitter& emitter, ir::ValueId ticket, const Area& to, ir::ValueId count, uint32_t most);
 
-// Cells of the interface that instructions of axes and drives write beside their request.
+// Cells of the interface that instructions of axes and drives write in addition to their request.
 
 inline constexpr int64_t kMostAxes = 16;
 
@@ -93,15 +93,15 @@ inline void setBitOfAxis(ir::RungBuilder& b, std::string_view low, std::string_v
   set(high, b.not_(isLow));
 }
 
-// Bytes that the control gives in the results of several requests, eight a word, put into the program's memory.
+// Bytes from the results of several requests, eight per word, stored in the program's memory.
 
-// What each request brings.
+// The contents of each request.
 struct PartSize {
-  uint32_t bytes = 0;     // at most
-  uint32_t firstWord = 0; // among its results
+  uint32_t bytes = 0;     // maximum
+  uint32_t firstWord = 0; // index among its results
 };
 
-// Puts the words of one request, which begin at the byte `first` of the area.
+// Stores the words of one request, which begin at the byte `first` of the area.
 inline void putWords(ir::RungBuilder& b, const Area& to, ir::ValueId count, ir::ValueId ticket, ir::ValueId first,
                      uint32_t words, uint32_t firstWord) {
   for (uint32_t w = 0; w < words; ++w) {
@@ -114,7 +114,8 @@ inline void putWords(ir::RungBuilder& b, const Area& to, ir::ValueId count, ir::
   }
 }
 
-// The first `count` bytes (i32), at most `most`; `request` asks for a part by its number (i32) and gives the ticket.
+// Stores the first `count` bytes (i32), at most `most`; `request` sends the request for a part by its number (i32) and
+// returns the ticket.
 template <class Request>
 void putParts(ir::RungBuilder& b, const Area& to, ir::ValueId count, uint32_t most, PartSize size, Request request) {
   if (most == 0) return;

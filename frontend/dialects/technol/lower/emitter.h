@@ -1,4 +1,4 @@
-// The module that is made, and the routine that is open in it.
+// The module under construction, and the routine that is open in it.
 #pragma once
 
 #include <memory>
@@ -25,30 +25,30 @@ public:
   RoutineBuilder& out() { return *open_.back(); }
 
   ir::RoutineId newRoutine(std::string name) { return addRoutine(module_, std::move(name)); }
-  // Opens a routine; the one that was open continues when it is closed.
+  // Opens a routine; the one that was open continues when the new one is closed.
   void open(ir::RoutineId routine);
-  // Gives the routine's weight.
+  // Returns the routine's weight.
   uint64_t close();
 
   ir::SlotId newSlot(ir::Type type, std::string key, bool transient = false) {
     return addSlot(module_, {.type = type, .transient = transient, .key = std::move(key)});
   }
-  // Stores 0, in rungs of their own.
+  // Stores 0, in separate rungs.
   void clearSlots(std::span<const ir::SlotId> slots);
   ir::FaultId fault(std::string_view text) { return frontend::fault(module_, text); }
   ir::ServiceId service(nc::technol::ServiceKind kind) {
     return frontend::service(module_, nc::technol::deviceService(kind).service);
   }
-  // A hidden space that holds the bytes.
+  // A hidden space with these bytes.
   ir::SpaceId constantBytes(std::string_view bytes) { return constants_.spaceOf(bytes); }
-  // A constant that is not part of what the program's author wrote: a line, the size or the number of a space.
+  // A constant that the program's author did not write: a line, the size or the number of a space.
   ir::ValueId given(ir::Type type, int64_t value) { return given(type, value, {}); }
-  // One that says where something lies, `distance` bytes after the place where a variable begins.
+  // A constant that is an address, `distance` bytes after the beginning of a variable.
   ir::ValueId address(ir::Type type, int64_t value, ir::Place begin, int64_t distance = 0);
   // The number of a routine.
   ir::ValueId routine(ir::Type type, int64_t value, ir::RoutineId routine);
   bool isCompared() const { return given_ != nullptr; }
-  // Stops the program where `bad` is 1: an access outside the memory.
+  // Stops the program if `bad` is 1: an access outside of the memory.
   void protect(ir::ValueId bad);
 
 private:

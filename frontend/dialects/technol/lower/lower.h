@@ -12,7 +12,7 @@ class Lowering;
 struct Operand;
 
 enum Condition { kAlways, kIfRlo, kIfNotRlo };
-inline constexpr int kEqualIfRlo = kGreater + 1; // besides frontend's Relation
+inline constexpr int kEqualIfRlo = kGreater + 1; // in addition to frontend's Relation
 enum Unary { kIncrement, kDecrement, kNegate, kAbsolute };
 enum Count { kCountUp, kCountDown, kCountUpBcd };
 

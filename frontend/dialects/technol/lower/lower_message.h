@@ -1,4 +1,4 @@
-// Messages: their parts, and bits that make them.
+// Messages: their parts, and bits that trigger them.
 #pragma once
 #include <array>
 #include <span>
@@ -7,15 +7,15 @@
 
 namespace rung::frontend::technol {
 
-// A message of the program as operations give it to the control.
+// A message of the program, as operations pass it to the control.
 
 struct MessageParts {
   ir::ValueId number; // i32
   ir::ValueId subId, par3;
-  ir::ValueId pars; // par1 and above it par2
+  ir::ValueId pars; // par1 in the low word, par2 in the high one
 };
 
-// par1 and par2, i32, as one.
+// par1 and par2, i32, as one value.
 inline ir::ValueId bothPars(ir::RungBuilder& b, ir::ValueId par1, ir::ValueId par2) {
   const ir::ValueId wide = b.zextOrTrunc(ir::Type::I64, par2);
   const ir::ValueId high = b.shl(wide, b.i32(32));
@@ -31,17 +31,17 @@ inline ir::ValueId valueOr0(Memory& memory, const Operand& operand, ir::Type typ
   return operand.given() ? b.zextOrTrunc(type, memory.value(operand)) : b.constant(type, 0);
 }
 
-// Bits that make messages, as EDEF ties them (man. ch. 14.3).
+// Bits that trigger messages, as connected by EDEF (man. ch. 14.3).
 
-// A bit that makes a message. Each execution of the statement that differs in number or index is an entry in the hidden
-// space @EDEF, which outlives CLEAR.
+// A bit that triggers a message. Each execution of the statement with another number or index is an entry in the hidden
+// space @EDEF, which CLEAR does not clear.
 struct BitMessage {
   const Statement* statement = nullptr;
   std::span<const Operand> pars;
   std::array<MemoryAccess, 4> places; // of the bit and of pars
   uint32_t mode = 0;
   uint32_t capacity = 1;
-  uint32_t table = 0; // first byte in @EDEF: the number of entries, then these
+  uint32_t table = 0; // first byte in @EDEF: the number of entries, followed by these
 };
 
 class BitMessages {
@@ -49,11 +49,11 @@ public:
   BitMessages(const SourceProgram& program, Memory& memory, State& state)
       : program_(program), memory_(memory), emitter_(memory.emitter()), state_(state) {}
 
-  // Ties the bit, where a statement is carried out; `number` and `subId`, i32, are taken then.
+  // Connects the bit when the statement is executed, with the present values of `number` and `subId`, i32.
   void add(BitMessage message, ir::ValueId number, ir::ValueId subId);
-  // At each start the bits are tied anew.
+  // Disconnects all bits; called at each start.
   void forget();
-  // The routine that looks at all bits, and its weight; invalid where there are none.
+  // The routine that checks all bits, and its weight; invalid if there are none.
   ir::RoutineId makeTask(uint64_t& weight);
 
 private:

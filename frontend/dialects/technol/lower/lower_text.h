@@ -1,4 +1,4 @@
-// Texts as instructions read and write them (man. ch. 3.18): characters up to a terminator, inside their variable.
+// Texts of instructions (man. ch. 3.18): characters up to a terminator, within their variable.
 #pragma once
 #include <array>
 
@@ -6,7 +6,7 @@
 
 namespace rung::frontend::technol {
 
-// A text, or the characters between apostrophes. `room`: characters it holds from the address on, at most `most`.
+// A text, or the characters between apostrophes. `room`: capacity in characters from the address on, at most `most`.
 struct Text {
   Area area;
   uint32_t most = 0;
@@ -15,12 +15,12 @@ struct Text {
 };
 
 inline Length roomOf(const Text& text) { return {.fixed = text.area.fixed, .most = text.most, .value = text.room}; }
-// An index that leads outside the text stops the program.
+// An index outside of the text stops the program.
 Text textOf(Memory& memory, const Operand& operand);
-// Characters before the terminator; a text without one has as many as it holds.
+// Number of characters before the terminator; a text without one has as many as fit.
 Length lengthOf(ir::RungBuilder& b, const Text& text);
 void storeTerminator(ir::RungBuilder& b, const Area& area, ir::ValueId at, ir::ValueId cond);
-// Whether one of the operands is a long text: what works on it has a rung of its own.
+// Whether one of the operands is a long text, whose instruction gets a separate rung.
 bool anyIsLong(std::span<const Operand> operands);
 
 template <class Body>
@@ -30,8 +30,8 @@ void inOwnRung(RoutineBuilder& out, bool isLong, Body body) {
   if (isLong) out.cut();
 }
 
-// Passes over the numbers below `most`: `pass` gets a number, the value and whether it continues, and gives the next
-// two. Blocks after the end are passed over. Gives the last value.
+// Iterates over the numbers below `most`: `pass` takes a number, the value and whether it continues, and returns the
+// next two. Blocks after the end are skipped. Returns the last value.
 template <class Pass>
 ir::ValueId passWhile(ir::RungBuilder& b, uint32_t most, ir::ValueId first, Pass pass) {
   using State = std::array<ir::ValueId, 2>;

@@ -1,4 +1,4 @@
-// What the lowering function of a row sees: the current statement, the emitter, the program's memory, and the parts
+// The context of a row's lowering function: the current statement, the emitter, the program's memory, and the parts
 // that statements share.
 #pragma once
 #include "frontend/dialects/technol/check/typed.h"
@@ -8,7 +8,7 @@
 
 namespace rung::frontend::technol {
 
-// Notes, for coverage, which values of a rung are contacts and which is the power into a coil.
+// Records, for coverage, which values of a rung are contacts and which is the power into a coil.
 
 class Marking {
 public:
@@ -16,11 +16,12 @@ public:
   Marking(const SourceProgram& program, Emitter& emitter, ir::Marks* marks)
       : program_(program), emitter_(emitter), marks_(marks) {}
 
-  // A bit that LDR, LA, LO or LX asks.
+  // A bit that LDR, LA, LO or LX reads.
   void contact(const Statement& statement, ir::ValueId value) { note(ir::MarkKind::Contact, statement, value); }
-  // What an instruction does by RLO is what the equation decides.
+  // An instruction that depends on RLO is decided by the equation.
   void decision(const Statement& statement);
-  // RLO of a comparison, an edge or a timer that ran in `rung`, as far as that continues: contacts mark themselves.
+  // RLO of a comparison, an edge or a timer that ran in `rung`, if that rung is still open: contacts are marked
+  // separately.
   void result(const Statement& statement, uint32_t rung);
 
 private:
@@ -39,22 +40,22 @@ public:
         clears(program, memory, state, sequences), bitMessages(program.source, memory, state),
         marking(program.source, emitter, marks), labels_(program.source.labels.size(), kNone) {}
 
-  // The next statement.
+  // Begins the next statement.
   void enter(const Statement& statement, const Typed& typed);
-  // What it does to the stack; then `popped` is what LA, LO, LX without operand took off it.
+  // Executes its effect on the stack; afterwards `popped` is the value that LA, LO, LX without operand took off it.
   void useStack();
 
   const Statement& statement() const { return *statement_; }
   std::string_view mnemonic() const { return statement_->row->info.mnemonic; }
   ir::ValueId popped() const { return popped_; }
-  // The label of the code at a program's label, in SourceProgram::labels.
+  // The label in the routine for a label of the program, an index in SourceProgram::labels.
   uint32_t labelOf(uint32_t label);
   uint32_t jumpTarget(const Operand& label) { return labelOf(label.index); }
-  // When a statement of this `variant` is carried out: always (an invalid value), or as RLO is.
+  // The condition of a statement with this `variant`: always (an invalid value), or by RLO.
   ir::ValueId guardOf(int condition);
-  // The bit that LDR, LA, LO and LX ask.
+  // The bit that LDR, LA, LO and LX read.
   ir::ValueId contact(const Operand& operand);
-  // State of this statement alone.
+  // State of this statement only.
   ir::SlotId ownSlot(ir::Type type) { return state.newSlot(type, *statement_, mnemonic()); }
   CountCell countCell(const Operand& operand) { return state.countCell(operand, *statement_); }
   void callProcedure(uint32_t procedure, ir::ValueId cond = {}) {
@@ -79,7 +80,7 @@ private:
   const Statement* statement_ = nullptr;
   const Typed* typed_ = nullptr;
   ir::ValueId popped_;
-  std::vector<uint32_t> labels_; // by program label
+  std::vector<uint32_t> labels_; // by label of the program
 };
 
 } // namespace rung::frontend::technol

@@ -1,11 +1,11 @@
-// How operations reach the memory that operands name: cells and bits, also by the index register BX.
+// How operations access the memory that operands name: cells and bits, possibly with the index register BX.
 #pragma once
 #include "frontend/dialects/technol/check/typed.h"
 #include "frontend/dialects/technol/lower/emitter.h"
 
 namespace rung::frontend::technol {
 
-// A place in memory as an operation reaches it: fixed, or by a checked index.
+// A place in memory as an operation accesses it: fixed, or by a checked index.
 struct MemoryAccess {
   ir::Place place;
   bool indexed = false;
@@ -13,7 +13,7 @@ struct MemoryAccess {
   ir::ValueId index;
 };
 
-// The program's memory, as operations of the emitter's open rung reach it.
+// The program's memory, for operations in the emitter's open rung.
 class Memory {
 public:
   Memory(const Declarations& declarations, Emitter& emitter) : declarations_(declarations), emitter_(emitter) {}
@@ -21,15 +21,16 @@ public:
   Emitter& emitter() { return emitter_; }
   uint32_t bytesOf(ir::SpaceId space) const { return declarations_.bytesOf(space); }
 
-  // Where a cell or bit lies; an index outside its space stops the program (where `guard` is 1, if there is one).
+  // The place of a cell or bit; an index outside of its space stops the program (if there is a `guard`, only if that is
+  // 1).
   MemoryAccess reach(const Operand& operand, ir::ValueId guard = {});
   ir::ValueId load(const MemoryAccess& access, ir::Type type);
   void store(const MemoryAccess& access, ir::ValueId value);
-  // A bit with its sign.
+  // A bit, negated if it has a sign.
   ir::ValueId bit(const Operand& operand);
-  // The bytes of a space.
+  // The size of a space in bytes.
   ir::ValueId sizeOf(ir::SpaceId space) { return emitter_.given(ir::Type::I32, bytesOf(space)); }
-  // A place of the space that the operand's variable lies in, as a number.
+  // A place in the space of the operand's variable, as a number.
   ir::ValueId placeIn(const Operand& operand, int64_t byte) {
     const ir::Place begin{.space = operand.place.space, .byte = static_cast<uint32_t>(operand.begin)};
     return emitter_.address(ir::Type::I32, byte, begin, byte - operand.begin);
@@ -42,9 +43,9 @@ private:
   Emitter& emitter_;
 };
 
-// State that instructions keep between their runs: slots that the compiler makes, and cells that they count in.
+// State of instructions: slots that the compiler makes, and cells in which they count.
 
-// A memory cell that an instruction counts in: written by the program, or made by the compiler.
+// A memory cell in which an instruction counts: one that the program names, or one that the compiler makes.
 struct CountCell {
   bool automatic = false;
   ir::SlotId slot;
@@ -52,7 +53,7 @@ struct CountCell {
   ir::Type type = ir::Type::I16;
 };
 
-// An instruction with its operands: what its state is known by in a changed program.
+// The key of an instruction's state, by which it is found in a changed program: its text with its operands.
 std::string instructionKey(const SourceProgram& program, const Statement& statement, std::string_view mnemonic);
 
 class State {
@@ -60,7 +61,7 @@ public:
   State(const SourceProgram& program, Memory& memory)
       : program_(program), memory_(memory), emitter_(memory.emitter()) {}
 
-  // State of a statement alone, e.g. the former value of an edge; `what` names it.
+  // State of one statement only, e.g. the former value of an edge; `what` names it.
   ir::SlotId newSlot(ir::Type type, const Statement& statement, std::string_view what);
   // Names cells of an allocated space, so that they are found again in a changed program.
   void nameCells(std::string key, ir::Place place, ir::Type type, uint32_t count = 1) {
@@ -71,7 +72,7 @@ public:
   void store(const CountCell& cell, ir::ValueId value);
   // A slot that counts time, which CLEAR GLOBAL sets to 0.
   void addTimer(ir::SlotId slot) { timers_.push_back(slot); }
-  // Of EDGE: forgotten at every start.
+  // A slot of EDGE, which is reset at every start.
   void forgetAtStart(ir::SlotId slot) { forgotten_.push_back(slot); }
 
   std::span<const ir::SlotId> automatic() const { return automatic_; }
@@ -83,7 +84,7 @@ private:
   Memory& memory_;
   Emitter& emitter_;
   Numbering names_;
-  std::vector<ir::SlotId> automatic_; // that instructions made for themselves
+  std::vector<ir::SlotId> automatic_; // made for single instructions
   std::vector<ir::SlotId> timers_;
   std::vector<ir::SlotId> forgotten_;
 };

@@ -1,8 +1,8 @@
-// The registers RLO, DR, DR_REAL, BX and the stack inside one rung: values of the rung, read from their slots when
-// first needed and written back at the rung's end if they changed. DR is kept in pieces: an operation on w bits
-// replaces only the low part (man. l.1034), and the 64 bits are put together when they are needed.
+// The registers RLO, DR, DR_REAL, BX and the stack within one rung: values of the rung, read from their slots on first
+// use and written back at the rung's end if they changed. DR is kept in pieces: an operation on w bits replaces only
+// the low part (man. l.1034), and the 64 bits are combined when they are needed.
 //
-// No function here may be called inside an open region of the builder: values made there do not outlive it.
+// No function here may be called inside an open region of the builder: values made there are not valid after it.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace rung::frontend::technol {
 
-// The slots that hold the registers, one set a module.
+// The slots of the registers, one set per module.
 struct RegisterSlots {
   ir::SlotId rlo, dr, real, bx;
   std::array<ir::SlotId, kStackDepth> stack;
@@ -23,12 +23,12 @@ class Registers {
 public:
   explicit Registers(const RegisterSlots& slots) : slots_(slots) {}
 
-  // A new rung begins: nothing is known but what the slots hold.
+  // Begins a new rung: only the contents of the slots are known.
   void begin(ir::RungBuilder& builder);
-  // Writes back what changed; the values stay readable for the transfer.
+  // Writes changed registers back; the values can still be read by the transfer.
   void flush();
 
-  // All registers 0, as a module begins.
+  // Sets all registers to 0, as at the beginning of a module.
   void clear();
 
   ir::ValueId rlo();
@@ -37,7 +37,7 @@ public:
   ir::ValueId dr(ir::Type type);
   // DR := value, sign-extended.
   void setDr(ir::ValueId value);
-  // Only the low part changes.
+  // Changes only the low part.
   void setDrPart(ir::ValueId value);
   ir::ValueId real();
   // DR_REAL := value, DR := its integer (man. l.726, l.1550).
@@ -52,7 +52,7 @@ private:
     ir::ValueId value;
     bool changed = false;
   };
-  // How `low` relates to the rest of DR.
+  // The relation of `low` to the rest of DR.
   enum class Part : uint8_t { None, Signed, Merged, Pending };
 
   ir::ValueId get(Cell& cell, ir::SlotId slot);

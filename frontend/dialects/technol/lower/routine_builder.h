@@ -1,5 +1,5 @@
-// Builds one routine, rung by rung: registers are written back where a rung ends, jumps go to labels that may be bound
-// later.
+// Builds one routine, rung by rung: registers are written back at the end of a rung, jumps go to labels that may be
+// bound later.
 #pragma once
 
 #include <optional>
@@ -13,7 +13,7 @@
 
 namespace rung::frontend::technol {
 
-// Where the statements of a rung are in the sources.
+// Positions of a rung's statements in the sources.
 struct RungSource {
   const SourceManager* sources = nullptr;
   FileId file;
@@ -30,7 +30,7 @@ public:
       : module_(module), routine_(routine), registers_(slots) {}
 
   ir::RoutineId routine() const { return routine_; }
-  // The open rung; opens one.
+  // The open rung; opens one if there is none.
   ir::RungBuilder& b();
   Registers& registers() {
     b();
@@ -43,22 +43,22 @@ public:
     cut();
     current_ = {};
   }
-  // Number of the rung in the routine that is open or comes next.
+  // Number in the routine of the open rung, or of the next one.
   uint32_t openRung() const { return static_cast<uint32_t>(module_.routines[routine_.index].rungs.size()); }
   bool isOpen() const { return builder_.has_value(); }
-  // Statements in the open rung.
+  // Number of statements in the open rung.
   uint32_t length() const { return builder_ ? statements_ : 0; }
 
   uint32_t newLabel();
-  // The next rung is the label's.
+  // Binds the label to the next rung.
   void bind(uint32_t label);
   // Ends the open rung, if there is one; control continues below.
   void cut();
-  // Ends of the rung with a transfer; with a condition the rung below follows when it is 0.
+  // End the rung with a transfer; with a condition of 0 the rung below follows.
   void jump(uint32_t label, ir::ValueId cond = {});
   void call(ir::RoutineId callee, ir::ValueId cond = {});
   void select(ir::ValueId value, std::vector<uint32_t> labels);
-  // A Switch whose labels come later; gives a handle for setLabels.
+  // A Switch whose labels are set later; returns a handle for setLabels.
   uint32_t selectLater(ir::ValueId value);
   void setLabels(uint32_t handle, std::vector<uint32_t> labels);
   // Closes the routine and resolves its jumps.
@@ -78,15 +78,15 @@ private:
   ir::RoutineId routine_;
   Registers registers_;
   ir::Rung rung_;
-  std::optional<ir::RungBuilder> builder_; // while the rung is open
+  std::optional<ir::RungBuilder> builder_; // set while a rung is open
   RungSource current_;                     // of the statement that is being lowered
-  RungSource first_;                       // of the open rung's first
+  RungSource first_;                       // first statement of the open rung
   uint32_t statements_ = 0;
   uint32_t lastLine_ = 0;
-  std::vector<uint32_t> labels_; // the rung of each
+  std::vector<uint32_t> labels_; // by label: its rung
   std::vector<Fixup> fixups_;
   bool endIsLabelled_ = false;
-  std::unordered_map<uint64_t, uint32_t> sameText_; // rungs of each text so far
+  std::unordered_map<uint64_t, uint32_t> sameText_; // number of rungs with each text so far
   uint64_t weight_ = 0;
 };
 

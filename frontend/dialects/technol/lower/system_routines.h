@@ -1,4 +1,4 @@
-// Routines that the compiler makes: what runs before MODULE_INIT, CLEAR of all data, procedures that the control calls.
+// Routines that the compiler makes: the start before MODULE_INIT, CLEAR of all data, procedures that the control calls.
 #pragma once
 #include "frontend/dialects/technol/lower/clocks.h"
 #include "frontend/dialects/technol/lower/lower_message.h"
@@ -8,14 +8,14 @@
 
 namespace rung::frontend::technol {
 
-// CLEAR GLOBAL,ALL and CLEAR INTERNAL,ALL.
+// Routines of CLEAR GLOBAL,ALL and CLEAR INTERNAL,ALL.
 class Clears {
 public:
   Clears(const TypedProgram& program, Memory& memory, State& state, Sequences& sequences)
       : program_(program), memory_(memory), emitter_(memory.emitter()), state_(state), sequences_(sequences) {}
 
   void call(bool global);
-  // Those that are called.
+  // Makes those that are called.
   void make();
 
 private:
@@ -27,11 +27,11 @@ private:
   Emitter& emitter_;
   State& state_;
   Sequences& sequences_;
-  ir::RoutineId routines_[2]; // GLOBAL, INTERNAL; invalid where not called
+  ir::RoutineId routines_[2]; // of GLOBAL, INTERNAL; invalid if not called
 };
 
-// Runs before MODULE_INIT: edges are recorded anew (man. l.300), the periods of timed blocks begin, EDEF ties its bits
-// anew, presets of the interface. Call when all code is lowered.
+// Makes the code that runs before MODULE_INIT: edges are recorded again (man. l.300), the periods of timed blocks
+// begin, EDEF connects its bits again, cells of the interface are preset. Must be called after all code is lowered.
 void makeStart(const SourceProgram& program, Emitter& emitter, ir::RoutineId routine, const State& state,
                const Clocks& clocks, BitMessages& messages);
 
@@ -43,7 +43,7 @@ struct Event {
 std::vector<Event> makeEvents(const SourceProgram& program, Emitter& emitter, const Procedures& procedures,
                               Clocks& clocks);
 
-// Cells of the interface that the control presets: when it is switched on, and when MODULE_INIT starts.
+// Cells of the interface that the control presets: at power-on, and when MODULE_INIT starts.
 
 void addPowerOnPresets(ir::Module& module);
 void storeStartPresets(ir::RungBuilder& b);

@@ -1,4 +1,4 @@
-// The walk over the modules of a program: typed statements in, rungs out.
+// The walk over the modules of a program: from typed statements to rungs.
 #pragma once
 
 #include "frontend/dialects/technol/lower/lowering.h"
@@ -11,19 +11,19 @@ struct LoweredModule {
   uint64_t weight = 0;
 };
 
-// Which routines there are to run.
+// The routines that tasks run.
 struct LoweredProgram {
   std::vector<LoweredModule> modules;
   std::vector<Event> events;
-  // Makes the messages of EDEF, at the end of each scan; no routine where there are none.
+  // Sends the messages of EDEF, at the end of each scan; invalid if there are none.
   ir::RoutineId bitMessages;
   uint64_t bitMessagesWeight = 0;
 };
 
 class Walk {
 public:
-  // The spaces of `module` exist; `periodUs` is the main task's period; `marks` and `given` may be
-  // null. The program has no errors.
+  // The spaces of `module` must exist; `periodUs` is the main task's period; `marks` and `given` may be null. The
+  // program must have no errors.
   Walk(const TypedProgram& program, ir::Module& module, uint32_t periodUs, ir::Marks* marks, ir::GivenNumbers* given);
 
   LoweredProgram run();

@@ -10,15 +10,15 @@ public:
   DeclarationReader(ReadContext& context, Structure& structure, Structures& structures, uint32_t file)
       : c_(context), program_(context.program), structure_(structure), structures_(structures), file_(file) {}
 
-  // A declaration that takes memory; `name` is null when it has none. `index` is the statement's number.
-  // `badName`: it has one that is not a name, which has been reported.
+  // A declaration that takes memory; `name` is null if it has none. `index` is the statement's number. `badName`: its
+  // name is invalid, which has been reported.
   void data(const Statement& statement, const Token* name, uint32_t index, bool badName);
-  // Another name before the declaration that was the last one.
+  // Another name before the last declaration.
   void alsoNamed(const Token& name);
   void constant(const Statement& statement);
-  // Data in the form of a structure; the operands are the value.
+  // Data with the type of a structure; the operands are the value.
   void instance(const Statement& statement, const Token* name, uint32_t index, uint32_t type);
-  // The variable of MAP_* or DEF_*; global in all files.
+  // The variable of MAP_* or DEF_*, global in all files.
   void exchanged(const Statement& statement, uint32_t index);
 
 private:
@@ -34,7 +34,7 @@ private:
   uint32_t file_;
 };
 
-// Gives the declared data their places and sizes, in the order of the source.
+// Assigns places and sizes to the declared data, in source order.
 void placeData(ReadContext& context);
 
 } // namespace rung::frontend::technol

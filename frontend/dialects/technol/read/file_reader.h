@@ -1,4 +1,4 @@
-// Reads one file of a program: lines to statements (reader.cpp), included files and macros on the way
+// Reads one file of a program: lines to statements (reader.cpp), and includes and macros between them
 // (reader_lines.cpp).
 #pragma once
 
@@ -27,7 +27,7 @@ private:
     std::string path;
     std::optional<FileId> id = std::nullopt;
     bool again = false;                     // it was included before
-    std::vector<std::string> problems = {}; // where it was not found
+    std::vector<std::string> problems = {}; // if it was not found
   };
   bool includes(const SourceLine& line, uint32_t depth);
   void readIncluded(const IncludedFile& file, SourceRange at, uint32_t depth);
@@ -67,13 +67,13 @@ private:
   DeclarationReader declarations_;
   MacroSet macros_;
   std::vector<std::string> expanding_; // macros whose lines are being read
-  std::vector<std::string> including_; // paths
+  std::vector<std::string> including_; // paths of the files that are being included
   uint32_t includeDepth_ = 0;
   bool includeReported_ = false;
-  std::vector<uint32_t> codeLabels_;    // tokens; before a DATA_LOCAL between instructions: they wait for its end
-  std::vector<uint32_t> pendingLabels_; // tokens; they belong to the next statement
-  bool badLabel_ = false;               // the statement has a label that is not a name
-  uint32_t passed_ = 0;                 // EX-kind statements and jumps so far
+  std::vector<uint32_t> codeLabels_;    // tokens; labels before a DATA_LOCAL between instructions: wait for its end
+  std::vector<uint32_t> pendingLabels_; // tokens; labels of the next statement
+  bool badLabel_ = false;               // the statement has a label that is not a valid name
+  uint32_t passed_ = 0;                 // number of EX-kind statements and jumps so far
   bool textAfterStop_ = false;
 };
 

@@ -1,6 +1,5 @@
-// User instructions: DEF_T_MACRO … END_T_MACRO (man. ch. 22). A macro's lines are kept as tokens; a use gives new
-// tokens in which formal parameters after TMAC. are replaced by the actual operands and T_LOCAL names by names of
-// their own.
+// User instructions: DEF_T_MACRO … END_T_MACRO (man. ch. 22). A macro's lines are stored as tokens; a use makes new
+// tokens in which formal parameters after TMAC. are replaced by the actual operands and T_LOCAL names by unique names.
 #pragma once
 
 #include <string>
@@ -12,7 +11,7 @@
 
 namespace rung::frontend::technol {
 
-// What a use does to the stack, whatever the body does (man. l.20536).
+// The effect of a use on the stack, regardless of the body (man. l.20536).
 enum class MacroStack : uint8_t { Normal, Begin, End, Push, Pop };
 
 struct Macro {
@@ -35,9 +34,9 @@ public:
   bool defining() const { return defining_; }
   // DEF_T_MACRO name par1, par2
   void begin(std::span<const Token> operands, SourceRange at);
-  // A line while a macro is being defined; false when it was its END_T_MACRO.
+  // Takes a line while a macro is being defined; false for its END_T_MACRO.
   bool take(std::span<const Token> tokens, uint32_t line);
-  // A module's border or the end of the file: the macro was not closed.
+  // Called at the end of a module or file: the macro was not closed.
   void abandon();
   // APPEND_T_MACRO name, alias [,flags]
   void append(std::span<const Token> operands, SourceRange at);
@@ -45,9 +44,9 @@ public:
   void control(std::span<const Token> operands, SourceRange at);
   bool first() const { return first_; }
 
-  // Null when there is none.
+  // Null if there is none.
   const Macro* find(std::string_view name) const;
-  // All names, to find the one that was meant.
+  // Offers all names as suggestions.
   void offer(text::Similar& similar) const;
   // The lines of one use; nothing after a report.
   bool expand(const Macro& macro, std::span<const Token> operands, SourceRange at, std::vector<Macro::Line>& out);

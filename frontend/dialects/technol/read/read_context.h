@@ -1,14 +1,14 @@
-// What the readers of a program's files share: the parts that they fill, and what counts over all files.
+// Shared by the readers of a program's files: the parts that they fill, and counts over all files.
 #pragma once
 
 #include "frontend/dialects/technol/program.h"
 
 namespace rung::frontend::technol {
 
-// Of the configuration.
+// Options from the configuration.
 struct ReadOptions {
-  std::string systemFolder;              // of included files named without a path; may be empty
-  std::vector<std::string> includePaths; // looked through after the folders of the program and of the including file
+  std::string systemFolder;              // for included files named without a path; may be empty
+  std::vector<std::string> includePaths; // searched after the folders of the program and of the including file
 };
 
 struct ReadContext {
@@ -19,11 +19,11 @@ struct ReadContext {
   Declarations& declarations;
   Symbols& symbols;
 
-  // Files that were included, by path, as they are read: once, so that a mistake in one has one place. Nothing: no
-  // text.
+  // Decoded included files, by path: each is decoded once, so that a mistake in it is reported at one position.
+  // Nothing: it cannot be read.
   std::unordered_map<std::string, std::optional<FileId>> includes = {};
-  uint32_t included = 0; // files by T_INCLUDE
-  uint32_t expanded = 0; // lines of macros
+  uint32_t included = 0; // number of files read by T_INCLUDE
+  uint32_t expanded = 0; // number of lines made by macros
 
   DiagBuilder report(Diag id, SourceRange at) { return diagnostics.report(id, at); }
 };

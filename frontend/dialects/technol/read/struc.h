@@ -1,33 +1,32 @@
-// Structures of a program: `NAME struc`, members, `NAME ends`, and data that have the form of one: `V NAME <1,2>` (man.
-// l.4074, l.7423, l.13525). Members lie one after the other without padding; a member's name is the constant of its
-// offset in bytes.
+// Structures of a program: `NAME struc`, members, `NAME ends`, and data of such a type: `V NAME <1,2>` (man. l.4074,
+// l.7423, l.13525). Members follow one another without padding; a member's name is the constant of its offset in bytes.
 #pragma once
 
 #include "frontend/dialects/technol/read/structure.h"
 
 namespace rung::frontend::technol {
 
-inline constexpr int64_t kMaxData = 16 << 20; // bytes; the control has far less, an offset must only stay small
+inline constexpr int64_t kMaxData = 16 << 20; // bytes; more than any control has, limits offsets
 
 class Structures {
 public:
   Structures(ReadContext& context, const Structure& structure, uint32_t file)
       : c_(context), structure_(structure), file_(file) {}
 
-  // Lines from `NAME struc` to `NAME ends`; false when the line is none of them. A statement of the language inside
-  // ends the structure with a report.
+  // Takes lines from `NAME struc` to `NAME ends`; false for any other line. A statement of the language within a
+  // structure ends it with a report.
   bool line(std::span<const Token> tokens);
   bool isOpen() const { return open_; }
-  // Something else follows: the structure was not closed.
+  // Called when something else follows: the structure was not closed.
   void abandon(SourceRange at, std::string_view found);
 
-  // The structure that a word names, in Declarations::structures; kNone when it names none.
+  // The structure that a word names, in Declarations::structures; kNone if there is none.
   uint32_t find(const Token& word) const;
-  // The memory of `<a,b>`, `?` or `n DUP(<a,b>)` at the start; as much as the structure takes after a report.
+  // The initial memory of `<a,b>`, `?` or `n DUP(<a,b>)`; after a report still with the size of the structure.
   std::vector<uint8_t> instance(uint32_t structure, std::span<const Token> value, SourceRange otherwise);
 
 private:
-  // What one value takes: a number of bytes, or a structure.
+  // The type of one value: a number of bytes, or a structure.
   struct Element {
     uint32_t bytes = 1;
     uint32_t structure = kNone;

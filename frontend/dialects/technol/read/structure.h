@@ -1,5 +1,5 @@
-// The structure of a file while it is read: which module, mechanism, procedure and timed block is open (man. ch. 5). It
-// reports what does not fit and continues with the most likely meaning, so that one mistake gives one report.
+// The structure of a file while it is read: the open module, mechanism, procedure and timed block (man. ch. 5). It
+// reports mistakes and continues with the most likely meaning, so that one mistake gives one report.
 #pragma once
 
 #include <array>
@@ -21,7 +21,7 @@ public:
   void endLocal(const Statement& statement);
   void stop(const Statement& statement, uint32_t index);
   void beginMechanism(const Statement& statement, const Token& name);
-  // False when none was open.
+  // False if none was open.
   bool endMechanism(const Statement& statement, const Token& name) {
     return endUnit(statement, name, UnitKind::Mechanism);
   }
@@ -32,14 +32,14 @@ public:
   void beginTimed(const Statement& statement, const Token& endLabel);
   // A label ends the timed blocks that name it.
   void passLabel(std::string_view name);
-  // What is missing at the end of the file.
+  // Reports what is missing at the end of the file.
   void finish(uint32_t statementCount);
 
-  // Whether a statement that opens, closes or declares something is right here, as far as that shows.
+  // Whether a statement that opens, closes or declares something is right here, as far as that is known.
   bool fits(const Row& row) const;
-  // Whether an executable statement is allowed here; reports where not.
+  // Whether an executable statement is allowed here; otherwise reports.
   bool allowsCode(const Statement& statement);
-  // Whether a declaration is allowed here; reports where not.
+  // Whether a declaration is allowed here; otherwise reports.
   bool allowsData(const Statement& statement);
 
   UnitId unit() const { return unit_; }
@@ -47,7 +47,7 @@ public:
   bool inModule() const { return part_ != kNone; }
   bool localOpen() const { return localOpen_; }
   bool inData() const { return inModule() && kind() == ModuleKind::Data; }
-  // Whether names declared here are this file's alone.
+  // Whether names declared here are local to this file.
   bool isLocal() const { return localOpen_ || !inData(); }
 
 private:
@@ -71,7 +71,7 @@ private:
   bool localOpen_ = false;
   bool stopped_ = false;
   bool outsideReported_ = false;
-  bool nested_ = false; // the module is inside another one, outer_
+  bool nested_ = false; // the module is inside of another one, outer_
   ModuleKind outer_ = ModuleKind::Data;
   bool dataReported_ = false;
   std::array<bool, kModuleKinds> seen_{};
@@ -83,8 +83,8 @@ private:
     UnitId outer;
     SourceRange at;
   };
-  std::vector<InnerBlock> innerBlocks_; // timed blocks inside one
-  std::vector<OpenBlock> lostBlocks_;   // timed blocks whose label did not come in time
+  std::vector<InnerBlock> innerBlocks_; // timed blocks inside of another one
+  std::vector<OpenBlock> lostBlocks_;   // timed blocks whose label did not follow in time
 };
 
 } // namespace rung::frontend::technol

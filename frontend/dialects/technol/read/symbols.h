@@ -1,6 +1,6 @@
-// Names of a program. Symbols of any case are one name, compared on 31 characters (man. l.75). Each file sees its own
-// local names first (labels, DATA_LOCAL, EQUI outside DATA), then the global ones of all files, then those of the NC
-// interface and the predefined constants, which are entered at their first use.
+// Names of a program, compared without case on 31 characters (man. l.75). Each file sees its own local names first
+// (labels, DATA_LOCAL, EQUI outside DATA), then the global ones of all files, then those of the NC interface and the
+// predefined constants, which are added on first use.
 #pragma once
 #include <set>
 #include <span>
@@ -20,7 +20,7 @@ namespace rung::frontend::technol {
 inline constexpr ir::SpaceId kInterfaceSpace{0}; // "NCI"
 inline constexpr ir::SpaceId kDataSpace{1};      // "DATA"
 inline constexpr ir::SpaceId kMechanismSpace{2}; // "MECH": a byte with the activation bit, a word with the line
-inline constexpr ir::SpaceId kRegisterSpace{3};  // "@REG": what the host gives and takes
+inline constexpr ir::SpaceId kRegisterSpace{3};  // "@REG": cells shared with the host
 inline constexpr ir::SpaceId kBlockSpace{4};     // "BLK": the queue of command blocks
 inline constexpr ir::SpaceId kExchangeSpace{5};  // "IO": variables of MAP_* and DEF_*
 inline constexpr uint32_t kQueuedBlocks = 16;
@@ -28,24 +28,24 @@ inline constexpr uint32_t kMechanismBytes = 3;
 inline constexpr uint32_t kRegisterBytes = 192;
 inline constexpr size_t kSignificant = 31;
 
-// After a name that is local to one use of a macro; no program can write it.
+// Follows a name that is local to one use of a macro; it cannot be written in a program.
 inline constexpr char kUseMark = '#';
 
-// Upper case, cut to what counts.
+// In upper case, shortened to the significant characters.
 std::string symbolKey(std::string_view name);
 
-// A constant of the control; the name in upper case.
+// A constant of the control, with its name in upper case.
 struct Predefined {
   std::string_view name;
   int64_t value;
 };
 std::span<const Predefined> predefinedConstants();
 
-// What is known of a name that is not declared.
+// Hints about a name that is not declared.
 struct NameHint {
-  const char* structure = nullptr; // of the control, where it is looked for as a member
-  text::Likely meant;              // what it may have been; without a word: to be looked for
-  bool isBit = false;              // it is used as one
+  const char* structure = nullptr; // a structure of the control in which it is looked up as a member
+  text::Likely meant;              // a suggestion; without a word: to be looked for
+  bool isBit = false;              // it is used as a bit
 };
 
 struct UndefinedName : UndeclaredUse {
@@ -58,16 +58,16 @@ public:
   explicit Symbols(Diagnostics& diagnostics) : SymbolTable(symbolKey), diagnostics_(diagnostics) { addScope(); }
 
   void addFile() { addScope(); }
-  // Enters a name of `symbol.file` and returns its index. Reports duplicate-symbol, shared-name, reserved-word and
-  // name-too-long; a duplicate gets a symbol of its own that no name leads to.
+  // Adds a name of `symbol.file` and returns its index. Reports duplicate-symbol, shared-name, reserved-word and
+  // name-too-long; a duplicate gets a separate symbol that cannot be found by name.
   uint32_t declare(Symbol symbol);
-  // While a file that was included before is read: where that is done. Gives what was said last.
+  // Sets the position of the include while an already included file is read again. Returns the former value.
   SourceRange readsAgain(SourceRange include) { return std::exchange(again_, include); }
   using SymbolTable::edit; // while the program is read
 
-  // kNone where there is none.
+  // kNone if there is none.
   uint32_t find(std::string_view name, uint32_t file);
-  // As find, and a use of it; where there is none, the name is noted as undefined.
+  // Like find, and records a use; an unknown name is recorded as undefined.
   uint32_t require(const Token& name, uint32_t file);
   // A bit name that may only follow an address.
   uint32_t findWeight(std::string_view name, uint32_t file);
@@ -76,11 +76,11 @@ public:
   void noteUndefined(const Token& name, uint32_t file, NameHint hint) {
     noteUndeclared({{name.text, name.range()}, file, hint});
   }
-  // Reports undefined-symbol. To be called when all operands have been read.
+  // Reports undefined-symbol. Must be called after all operands have been read.
   void reportUndefined();
 
 private:
-  // Scopes: the global names, those of the control that are in use, and each file's own.
+  // Scopes: the global names, those of the control that are in use, and the local names of each file.
   static constexpr uint32_t kGlobal = 0, kControl = 1, kFirstFile = 2;
   static uint32_t scopeOf(const Symbol& symbol) { return symbol.local ? kFirstFile + symbol.file : kGlobal; }
 
@@ -96,18 +96,18 @@ private:
   SourceRange again_;                 // see readsAgain
   std::set<SourcePos> reportedAgain_; // inclusions
   Diagnostics& diagnostics_;
-  std::unordered_map<const nc::Signal*, uint32_t> members_; // of structures of the control, those that are in use
+  std::unordered_map<const nc::Signal*, uint32_t> members_; // members of control structures that are in use
 };
 
-// Constant expressions: numbers, characters, constants and members, with + and - between.
+// Constant expressions: numbers, characters, constants and members, combined by + and -.
 
-// Reads those of one file.
+// Reads the constant expressions of one file.
 class ConstantReader {
 public:
   ConstantReader(Symbols& symbols, Diagnostics& diagnostics, uint32_t file)
       : symbols_(symbols), diagnostics_(diagnostics), file_(file) {}
 
-  // Nothing after a report; `otherwise` is its place where there are no tokens.
+  // Nothing after a report; `otherwise` is its range if there are no tokens.
   std::optional<int64_t> value(std::span<const Token> tokens, SourceRange otherwise);
 
 private:

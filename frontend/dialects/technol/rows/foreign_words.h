@@ -1,5 +1,5 @@
-// Words of the 80386's assembler, of IEC 61131 instruction lists, of FANUC, Siemens and Mitsubishi programs, and what
-// TECHNOL has for them (man. ch. 3). Included by instructions.cpp only.
+// Words of the 80386's assembler, of IEC 61131 instruction lists, of FANUC, Siemens and Mitsubishi programs, and their
+// equivalents in TECHNOL (man. ch. 3). Included by instructions.cpp only.
 #pragma once
 #include "frontend/sema/foreign_word.h"
 
@@ -26,12 +26,12 @@ inline constexpr std::string_view kCondition = "LDR of the condition, then JL0 t
 inline constexpr std::string_view kAfterwards = "a label, to which JL0 or JUM leads";
 
 inline constexpr ForeignWord kForeignWords[] = {
-    // the same with the same operand
+    // equivalent, with the same operand
     {"CAL", "PROC_CALL", true},
     {"JMPC", "JL1", true},
     {"JMPCN", "JL0", true},
     {"WRT", "WR", true},
-    // said otherwise here
+    // expressed differently here
     {"A", kBegins},
     {"ADD", "AD"},
     {"AN", kBeginsInverted},

@@ -1,5 +1,5 @@
-// The table of TECHNOL: a row is the reference's InstructionInfo, what the statement is to the structure of a program
-// (Role), what it does to the registers as far as it shows without its operands (Effect), what is checked beyond the
+// The table of TECHNOL: a row has the reference's InstructionInfo, the statement's part in the structure of a program
+// (Role), its effect on the registers as far as that does not depend on its operands (Effect), the check beyond the
 // kinds of its operands, and its lowering function. A new instruction is one row, one lowering function (often shared,
 // distinguished by `variant`), one scenario.
 #pragma once
@@ -18,8 +18,8 @@ struct CheckContext;
 struct Operand;
 
 enum class Role : uint8_t {
-  Code,      // lowered where it is
-  NoCode,    // accepted, does nothing
+  Code,      // lowered in place
+  NoCode,    // accepted, without effect
   Module,    // variant: ModuleKind
   ModuleEnd, // variant: ModuleKind
   Local,     // DATA_LOCAL
@@ -35,8 +35,8 @@ enum class Role : uint8_t {
   ProcBegin,
   ProcEnd,
   Timed,      // DFTMxx; variant: TimedKind
-  Macro,      // DEF_T_MACRO and its like
-  MacroBegin, // made by the use of a macro that has its own effect on the stack; variant: MacroStack
+  Macro,      // DEF_T_MACRO and similar ones
+  MacroBegin, // made by the use of a macro that declares its effect on the stack; variant: MacroStack
   MacroEnd,
 };
 
@@ -45,16 +45,16 @@ enum Effect : uint16_t {
   kSetsRlo = 2,
   kReadsDr = 4,
   kSetsDr = 8,
-  kPushes = 16, // stores RLO when an equation is open (LDR)
-  kJoins = 32,  // without operand: joins with the stored value
+  kPushes = 16, // pushes RLO if an equation is open (LDR)
+  kJoins = 32,  // without operand: combines with the pushed value
   kWaits = 64,  // of EX kind
   kJumps = 128,
-  kKeepsDr = 256, // EX kind: DR is still there when it passes; else: it stays where there is nothing to put there
+  kKeepsDr = 256, // EX kind: DR is preserved when it passes; otherwise: preserved if there is nothing to store in it
   kInitOnly = 512,
   kEndsInit = 1024,
   kEndsDone = 2048,
   kDeclares = 4096,     // its first operand names a variable that it declares; variant: nc::ExchangeKind
-  kDrIfNotGiven = 8192, // kReadsDr holds only without the first operand that may be left out
+  kDrIfNotGiven = 8192, // kReadsDr applies only without the first operand that may be left out
 };
 
 using CheckFn = void (*)(const CheckContext& context, std::span<const Operand> operands, int variant);
@@ -64,7 +64,7 @@ struct Row {
   InstructionInfo info;
   Role role = Role::Code;
   uint16_t effects = 0;
-  CheckFn check = nullptr; // of operands that are right each by itself
+  CheckFn check = nullptr; // of operands that are each right by themselves
   LowerFn lower = nullptr;
   int variant = 0;
 };
@@ -72,15 +72,14 @@ struct Row {
 std::span<const Row> allRows();
 // The same rows for the reference.
 std::span<const InstructionInfo* const> instructionInfos();
-// By mnemonic in any case, JLO for JL0; null when there is none. Mnemonics that only have a meaning as a service are
-// rows too.
+// By mnemonic, ignoring case, JLO for JL0; null if there is none. Mnemonics that are only services are rows, too.
 const Row* findRow(std::string_view mnemonic);
 
 // How a name that is also a mnemonic, keyword or register may be used as a symbol (§1 of the inventory).
 enum class Reserved : uint8_t { No, Warn, Yes };
 Reserved reservedWord(std::string_view name);
 bool isAssembler(std::string_view name);
-// An instruction of another language, and what is written for it here; null when it is none of those that are known.
+// An instruction of another language, with its equivalent; null if it is unknown.
 const ForeignWord* foreignWord(std::string_view word);
 
 enum class ModuleKind : uint8_t {
@@ -99,7 +98,7 @@ enum class ModuleKind : uint8_t {
   Cyclic,
 };
 inline constexpr int kModuleKinds = 13;
-// Those that run every millisecond.
+// Modules that run every millisecond.
 constexpr bool isFast(ModuleKind kind) {
   return kind == ModuleKind::Fast || kind == ModuleKind::Fastest || kind == ModuleKind::Cyclic;
 }

@@ -1,4 +1,4 @@
-// Kinds of operands: what a row may ask for.
+// The kinds of operands of the rows.
 #pragma once
 
 #include <algorithm>
@@ -13,21 +13,21 @@
 
 namespace rung::frontend::technol {
 
-// Which type prefixes a kind takes.
+// The type prefixes that a kind accepts.
 enum Prefix : uint8_t { kByte = 1, kWord = 2, kDword = 4, kQword = 8, kHigh = 16, kReal = 32, kCnst = 64 };
 
-// A list of words that an operand may be; `first` is the number of the first for a device.
+// A list of words that an operand may be; `first` is the number of the first word for a device.
 struct Words {
-  std::string_view list = {}; // parted by blanks
+  std::string_view list = {}; // separated by blanks
   int64_t first = 0;
 };
 
-// What an operand of a kind may be, beside left out. Each struct has what makes sense with it.
+// The alternatives of an operand kind, besides being left out. Each struct has the properties that apply to it.
 
-// A bit, also at an address.
+// A bit, possibly at an address.
 struct BitKind {
   bool sign = false;   // `-` before it
-  bool flag = false;   // or 0 or 1
+  bool flag = false;   // or the constant 0 or 1
   bool number = false; // or the name of a bit without an address, for its number
 };
 // A number: in a cell, a constant, or either.
@@ -37,53 +37,53 @@ struct NumberKind {
   Source source = Source::Cell;
   bool sign = false;           // `-` before it
   bool text = false;           // or a text
-  bool twosComplement = false; // a cell has a sign
+  bool twosComplement = false; // a cell is signed
   ir::TypeSet types = 0xFF;    // of cells
-  Words words = {};            // or one of these
+  Words words = {};            // or one of these words
   bool axes = false;           // the words are names of axes, which the configuration may replace
 };
-// Memory of any type, named by a variable; its type does not matter where there are no prefixes.
+// Memory of any type, named by a variable; its type is ignored if there are no prefixes.
 struct MemoryKind {
   enum class Content : uint8_t { Any, Text, TextOrLiteral };
   uint8_t prefixes = 0;
   Content content = Content::Any;
-  bool pastEnd = false; // the place after the last byte of its memory, too
-  Words words = {};     // or one of these
+  bool pastEnd = false; // also the place after the last byte of its memory
+  Words words = {};     // or one of these words
 };
 // The name of a label, a mechanism or a procedure.
 struct NameKind {
   SymbolKind symbol = SymbolKind::Label;
 };
-// One of some words.
+// One of several words.
 struct WordKind {
   Words words;
 };
-// A member of a structure of the control, for its offset.
+// A member of a structure of the control, as its offset.
 struct MemberKind {
   const char* structure;
 };
-// A type as a word: these prefixes.
+// A type as a word: one of these prefixes.
 struct WidthKind {
   uint8_t prefixes = 0;
   bool bit = false; // or the number of a bit
 };
-// The register that the row calls the operand.
+// The register that the row has as its operand.
 struct RegisterKind {};
 // A variable of MAP_* or DEF_* that the statement declares.
 struct NewVariableKind {
   bool array = false; // `[n]` may follow
 };
-// One of DEF_IN, or an element of it.
+// A variable of DEF_IN, or an element of it.
 struct InputKind {};
-// The name of a bit, for its number in a byte.
+// The name of a bit, as its number in a byte.
 struct BitNumberKind {};
-// A part of a declaration, which the reader reads.
+// A part of a declaration, which the reader parses.
 struct DeclarationKind {};
 
 using Takes = std::variant<BitKind, NumberKind, MemoryKind, NameKind, WordKind, MemberKind, WidthKind, RegisterKind,
                            NewVariableKind, InputKind, BitNumberKind, DeclarationKind>;
 
-// How an operand is left out: by `-` or NIL, or by nothing between commas, too.
+// How an operand may be left out: by `-` or NIL, or also by nothing between commas.
 enum class Omission : uint8_t { Never, Dash, Nothing };
 
 struct OperandKind : OperandKindInfo {
@@ -95,7 +95,7 @@ inline const OperandKind& kindOf(const OperandInfo& operand) { return static_cas
 inline bool mayBeOmitted(const OperandInfo& operand) { return kindOf(operand).omission != Omission::Never; }
 inline bool isMemory(const OperandInfo& operand) { return std::holds_alternative<MemoryKind>(kindOf(operand).takes); }
 
-// Calls visit(word, number) for the words of a list, which are parted by blanks.
+// Calls visit(word, number) for the words of a list, which are separated by blanks.
 template <class Visit>
 void forEachWord(std::string_view words, Visit visit) {
   for (int64_t number = 0; !words.empty(); ++number) {
@@ -104,7 +104,7 @@ void forEachWord(std::string_view words, Visit visit) {
     words.remove_prefix(std::min(end + 1, words.size()));
   }
 }
-// The number of a word in a list, in any case; -1: it is not there.
+// The number of a word in a list, ignoring case; -1: not in the list.
 inline int64_t numberOfWord(std::string_view words, std::string_view wanted) {
   int64_t found = -1;
   forEachWord(words, [&](std::string_view word, int64_t number) {
@@ -113,10 +113,10 @@ inline int64_t numberOfWord(std::string_view words, std::string_view wanted) {
   return found;
 }
 
-// A new kind is one descriptor here, and the rows that name it.
+// A new kind is one descriptor here, and the rows that refer to it.
 namespace kinds {
 
-// The codes of wrong operands.
+// Codes of reports about wrong operands.
 inline constexpr std::string_view kWrongKind = "wrong-operand-kind", kRange = "operand-range",
                                   kPrefix = "invalid-type-prefix";
 

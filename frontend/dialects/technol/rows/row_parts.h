@@ -1,4 +1,4 @@
-// What the rows of the table are made of: operands that several rows have. Included by the rows_*.h only.
+// Operands that several rows share. Included by the rows_*.h only.
 #pragma once
 #include <string_view>
 
@@ -9,7 +9,7 @@ namespace rung::frontend::technol {
 
 using OperandList = decltype(InstructionInfo::operands);
 
-// Bytes that one instruction may move: a rung makes so many passes.
+// Most bytes that one instruction may move: limited by the iterations of a rung.
 inline constexpr int64_t kMostBytes = int64_t{1} << 20;
 
 constexpr OperandInfo in(std::string_view name, const OperandKind& kind, std::string_view doc) {
@@ -39,7 +39,7 @@ constexpr OperandInfo lengthOf(std::string_view name, std::string_view doc, bool
 }
 // Where instructions of EX kind are allowed (man. l.2166-2171).
 inline constexpr std::string_view kSequentialUnits = "mechanisms, MODULE_BLOCK_INIT, MODULE_BLOCK_DONE";
-// Which part of DR the instruction works on.
+// The part of DR that the instruction uses.
 constexpr OperandInfo widthOf(const OperandKind& kind) {
   return optional(in("width", kind, "the part of DR; without it 16 bits"));
 }

@@ -20,7 +20,7 @@ inline constexpr Row kEdgeShape = {.info = {.group = "bit logic",
                                    .effects = kSetsRlo,
                                    .lower = lowerEdge};
 
-// What depends on RLO closes the equation.
+// An instruction that depends on RLO ends the equation.
 constexpr Row flagShape(uint16_t effects) {
   return {.info = {.group = "bit write",
                    .operands = {kFlagValue, repeated(out("bit", kinds::kPlainBit, "becomes the value"))},

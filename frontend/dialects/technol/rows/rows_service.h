@@ -33,7 +33,7 @@ constexpr Row serviceRow(std::string_view mnemonic, const ServiceShape& shape, s
                          std::string_view ref, std::string_view doc, std::string_view example) {
   return rowOf(shapeOf(shape), mnemonic, title, ref, doc, example, static_cast<int>(shape.code.form));
 }
-// Of EX kind: the program polls it, its state is in RLO and DR (man. l.2090, l.15549, l.18043, l.18736).
+// Of EX kind: the program polls the request, its state is in RLO and DR (man. l.2090, l.15549, l.18043, l.18736).
 constexpr Row pollingRow(std::string_view mnemonic, ServiceShape shape, std::string_view title, std::string_view ref,
                          std::string_view doc, std::string_view example) {
   shape.effects = kWaits | kSetsRlo | kSetsDr;

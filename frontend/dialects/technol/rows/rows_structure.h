@@ -8,7 +8,7 @@
 
 namespace rung::frontend::technol {
 
-// By ModuleKind; the rows of a module's two words share one.
+// By ModuleKind; the rows for the two words of a module share an example.
 inline constexpr std::string_view kModuleExamples[kModuleKinds] = {
     "DATA\nINPUTS: DFM START,STOPPED\nSPEED: DS 2\nDATA_END",
     "MODULE_INPUT\nMOVR GO,DOOR\nMODULE_INPUT_END",

@@ -350,7 +350,7 @@ void RungWriter::host(const Op& op) {
 
 // ---- exits -------------------------------------------------------------------------------------------------------
 
-std::string RungWriter::way(const Destination& to) const {
+std::string RungWriter::transferTo(const Destination& to) const {
   const std::string label = to.inside() ? fmt::format("goto {};", rungLabel(to.rung)) : "";
   if (to.inside()) return to.extra == 0 ? label : fmt::format("{{ extra += {}u; {} }}", to.extra, label);
   return leaving(to.chunk == RUNG_NONE ? std::string("RUNG_RETURN;") : fmt::format("return {}u;", to.chunk));
@@ -367,26 +367,27 @@ void RungWriter::writeExit(const Exit& exit) {
   if (exit.kind == TransferKind::Next && falls) return;
   beginLine(rung_->transferLine != 0 ? rung_->transferLine : rung_->begin.line, true);
   switch (exit.kind) {
-  case TransferKind::Next: statement(way(exit.otherwise)); break;
-  case TransferKind::Goto: statement(when + way(exit.taken)); break;
+  case TransferKind::Next: statement(transferTo(exit.otherwise)); break;
+  case TransferKind::Goto: statement(when + transferTo(exit.taken)); break;
   case TransferKind::Call:
     // A call at the end of a routine needs no return address: the callee returns to the caller.
     statement(exit.otherwise.chunk == RUNG_NONE
-                  ? when + way(exit.taken)
+                  ? when + transferTo(exit.taken)
                   : when + leaving(fmt::format("RUNG_CALL({}u, {}u)", exit.otherwise.chunk, exit.taken.chunk)));
     break;
   case TransferKind::Ret: statement(when + leaving("RUNG_RETURN;")); break;
   case TransferKind::End: statement(when + leaving("return RUNG_PC_DONE;")); break;
   case TransferKind::Switch: {
     statement(fmt::format("switch ({}) {{", v(exit.value)));
-    for (size_t i = 1; i < exit.targets.size(); ++i) statement(fmt::format("  case {}u: {}", i, way(exit.targets[i])));
-    statement(fmt::format("  default: {}", way(exit.targets[0])));
+    for (size_t i = 1; i < exit.targets.size(); ++i)
+      statement(fmt::format("  case {}u: {}", i, transferTo(exit.targets[i])));
+    statement(fmt::format("  default: {}", transferTo(exit.targets[0])));
     statement("}");
     break;
   }
   }
   if (exit.cond.valid()) {
-    if (!falls) statement(way(exit.otherwise));
+    if (!falls) statement(transferTo(exit.otherwise));
     if (falls && exit.otherwise.extra != 0) statement(fmt::format("extra += {}u;", exit.otherwise.extra));
   }
   endLine();

@@ -51,7 +51,7 @@ private:
   void openLoop(const ir::Op& op);
   void closeLoop(const ir::Op& op, size_t index);
   void host(const ir::Op& op);
-  std::string way(const ir::Destination& to) const;
+  std::string transferTo(const ir::Destination& to) const;
   std::string leaving(const std::string& how) const;
 
   std::string v(ir::ValueId id) const { return "v" + std::to_string(id.index); }

@@ -399,7 +399,7 @@ void ChunkEmitter::goTo(const Destination& to) {
 llvm::BasicBlock* ChunkEmitter::blockOf(const Destination& to) {
   if (to.inside() && to.extra == 0) return rungBlock(to.rung);
   llvm::IRBuilder<>::InsertPointGuard guard(builder_);
-  llvm::BasicBlock* made = block("way");
+  llvm::BasicBlock* made = block("transfer");
   builder_.SetInsertPoint(made);
   goTo(to);
   return made;

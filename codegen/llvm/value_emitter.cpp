@@ -145,13 +145,13 @@ static llvm::CmpInst::Predicate predicateOf(OpCode code) {
 
 namespace {
 
-// Whether `wide` differs from its low bits, sign-extended in `partition`, as the overflow flag of processors: if `wide`
+// Whether `wide` differs from its low bits, sign-extended in `truncated`, as the overflow flag of processors: if `wide`
 // is a sum, a difference or a product of numbers with the width of these low bits. Null: it is not.
-llvm::Value* overflow(llvm::IRBuilder<>& builder, llvm::Value* partition, llvm::Value* wide) {
+llvm::Value* overflow(llvm::IRBuilder<>& builder, llvm::Value* truncated, llvm::Value* wide) {
   using namespace llvm::PatternMatch;
   const auto* result = llvm::dyn_cast<llvm::BinaryOperator>(wide);
-  if (result == nullptr || !match(partition, m_SExt(m_Trunc(m_Specific(wide))))) return nullptr;
-  llvm::Type* kept = llvm::cast<llvm::SExtInst>(partition)->getSrcTy();
+  if (result == nullptr || !match(truncated, m_SExt(m_Trunc(m_Specific(wide))))) return nullptr;
+  llvm::Type* kept = llvm::cast<llvm::SExtInst>(truncated)->getSrcTy();
   if (wide->getType()->getIntegerBitWidth() < 2 * kept->getIntegerBitWidth()) return nullptr;
   llvm::Intrinsic::ID operation = 0;
   if (result->getOpcode() == llvm::Instruction::Add) operation = llvm::Intrinsic::sadd_with_overflow;

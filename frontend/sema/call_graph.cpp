@@ -1,4 +1,4 @@
-// Circles of calls (see call_graph.h).
+// Cycles of calls (see call_graph.h).
 #include "frontend/sema/call_graph.h"
 
 #include <algorithm>
@@ -43,13 +43,13 @@ private:
     if (state_[call.callee] == State::Unseen)
       open(call.callee);
     else if (state_[call.callee] == State::Open)
-      addCircle(call);
+      addCycle(call);
   }
 
-  void addCircle(const CallGraph::Call& call) {
-    CallGraph::Circle& circle = order_.circles.emplace_back(CallGraph::Circle{call, {}});
+  void addCycle(const CallGraph::Call& call) {
+    CallGraph::Cycle& cycle = order_.cycles.emplace_back(CallGraph::Cycle{call, {}});
     auto at = std::ranges::find(path_, call.callee, &std::pair<uint32_t, size_t>::first);
-    while (++at != path_.end()) circle.through.push_back(at->first);
+    while (++at != path_.end()) cycle.through.push_back(at->first);
   }
 
   const CallGraph& graph_;
@@ -62,9 +62,9 @@ private:
 
 CallGraph::Order CallGraph::order() const { return Walk(*this, calls_.size()).run(); }
 
-std::string CallGraph::throughText(const Circle& circle, const std::function<std::string(uint32_t)>& nameOf) {
+std::string CallGraph::throughText(const Cycle& cycle, const std::function<std::string(uint32_t)>& nameOf) {
   std::string text;
-  for (const uint32_t routine : circle.through) text += (text.empty() ? " through " : ", ") + nameOf(routine);
+  for (const uint32_t routine : cycle.through) text += (text.empty() ? " through " : ", ") + nameOf(routine);
   return text;
 }
 

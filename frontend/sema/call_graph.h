@@ -22,18 +22,18 @@ public:
 
   // A cycle of calls: `call` closes it, `through` are the routines between its callee and itself, in the order of their
   // calls.
-  struct Circle {
+  struct Cycle {
     Call call;
     std::vector<uint32_t> through;
   };
   struct Order {
-    std::vector<Circle> circles;
+    std::vector<Cycle> cycles;
     std::vector<uint32_t> calleesFirst; // all routines; with cycles, not all of them precede their callers
   };
   Order order() const;
 
   // " through A, B" for a message; "" if a routine calls itself.
-  static std::string throughText(const Circle& circle, const std::function<std::string(uint32_t)>& nameOf);
+  static std::string throughText(const Cycle& cycle, const std::function<std::string(uint32_t)>& nameOf);
 
 private:
   std::vector<std::vector<Call>> calls_; // by caller

@@ -28,7 +28,7 @@ public:
       : partition_(partition), costs_(costs), callees_(callees), limit_(limit),
         marks_(partition.rungCount(), Mark::New), longest_(partition.rungCount(), 0),
         next_(partition.rungCount(), RUNG_NONE), order_(partition.rungCount(), 0), lowest_(partition.rungCount(), 0),
-        leadsToCircle_(partition.rungCount(), 0) {}
+        leadsToLoop_(partition.rungCount(), 0) {}
 
   uint64_t from(Place start) {
     stack_.push_back(start);
@@ -43,7 +43,7 @@ public:
       if (mark == Mark::Open) {
         longest_[number(place)] = measure(place);
         mark = Mark::Done;
-        closeCircle(place);
+        closeLoop(place);
       }
       stack_.pop_back();
     }
@@ -51,20 +51,20 @@ public:
   }
 
   // The longest path from there within its routine.
-  RoutineWay wayFrom(Place place) {
-    RoutineWay way{.routine = place.routine, .cost = from(place), .rungs = {}, .calls = {}};
+  RoutinePath pathFrom(Place place) {
+    RoutinePath path{.routine = place.routine, .cost = from(place), .rungs = {}, .calls = {}};
     for (; place.rung != RUNG_NONE; place.rung = next_[number(place)]) {
       const Transfer& transfer = transferOf(place);
-      way.rungs.push_back(number(place));
-      if (transfer.kind == TransferKind::Call) way.calls.push_back({number(place), transfer.callee});
+      path.rungs.push_back(number(place));
+      if (transfer.kind == TransferKind::Call) path.calls.push_back({number(place), transfer.callee});
     }
-    return way;
+    return path;
   }
 
   // Rungs by number.
   const std::vector<std::vector<uint32_t>>& loops() const { return loops_; }
   // Whether some path from there, which has been measured, reaches a loop.
-  bool leadToCircle(Place place) const { return leadsToCircle_[number(place)] != 0; }
+  bool leadsToLoop(Place place) const { return leadsToLoop_[number(place)] != 0; }
 
 private:
   enum class Mark : uint8_t { New, Open, Done };
@@ -104,22 +104,22 @@ private:
   }
 
   // Finds strongly connected components by Tarjan's algorithm; those with an edge back to their own rungs are loops.
-  void closeCircle(Place place) {
+  void closeLoop(Place place) {
     const uint32_t own = number(place);
     const Transfer& transfer = transferOf(place);
     bool itself = false;
     bool leads =
-        transfer.kind == TransferKind::Call && callees_ == nullptr && leadToCircle({.routine = transfer.callee});
+        transfer.kind == TransferKind::Call && callees_ == nullptr && leadsToLoop({.routine = transfer.callee});
     forNext(place, transfer, [&](Place next) {
       itself = itself || number(next) == own;
-      leads = leads || leadToCircle(next);
+      leads = leads || leadsToLoop(next);
       if (order_[number(next)] != kClosed) lowest_[own] = std::min(lowest_[own], lowest_[number(next)]);
     });
     if (lowest_[own] != order_[own]) return;
     if (reached_.back() == own && !itself) { // a single rung
       reached_.pop_back();
       order_[own] = kClosed;
-      leadsToCircle_[own] = leads ? 1 : 0;
+      leadsToLoop_[own] = leads ? 1 : 0;
       return;
     }
     const auto first = std::find(reached_.rbegin(), reached_.rend(), own).base() - 1;
@@ -127,7 +127,7 @@ private:
     reached_.erase(first, reached_.end());
     for (const uint32_t rung : rungs) {
       order_[rung] = kClosed;
-      leadsToCircle_[rung] = 1;
+      leadsToLoop_[rung] = 1;
     }
     std::ranges::sort(rungs);
     loops_.push_back(std::move(rungs));
@@ -158,7 +158,7 @@ private:
   std::vector<uint32_t> next_;   // next rung on the longest path, in the same routine; RUNG_NONE: it ends
   std::vector<uint32_t> order_;  // order in which rungs were opened
   std::vector<uint32_t> lowest_; // lowest order that can be reached and is not in a loop found already
-  std::vector<uint8_t> leadsToCircle_;
+  std::vector<uint8_t> leadsToLoop_;
   uint32_t opened_ = 0;
   std::vector<uint32_t> reached_; // rungs whose loops are not known yet, in opening order
   std::vector<std::vector<uint32_t>> loops_;
@@ -186,8 +186,8 @@ public:
   const std::vector<std::vector<uint32_t>>& loops() const { return loops_; }
 
   // Searches backward from the last chunk to the first from which a loop can be reached.
-  Straight straight() {
-    Straight out;
+  LoopFreeEnd loopFreeEnd() {
+    LoopFreeEnd out;
     if (task_.parts > 1) return out;
     uint64_t most = 0;
     for (auto c = static_cast<uint32_t>(partition_.chunks().size()); c-- > 0;) {
@@ -195,31 +195,31 @@ public:
       if (chunk.routine != task_.entry) continue;
       const Place place{.routine = chunk.routine, .rung = chunk.firstRung};
       most = std::max(most, whole_.from(place));
-      if (whole_.leadToCircle(place)) break;
+      if (whole_.leadsToLoop(place)) break;
       out = {.chunk = c, .weight = static_cast<uint32_t>(std::min<uint64_t>(most, UINT32_MAX))};
     }
     return out;
   }
 
   // Each routine before those that it calls.
-  std::vector<RoutineWay> routines() {
-    std::vector<RoutineWay> paths{longest_ != nullptr ? longest_->wayFrom(start_) : whole_.wayFrom(start_)};
+  std::vector<RoutinePath> routines() {
+    std::vector<RoutinePath> paths{longest_ != nullptr ? longest_->pathFrom(start_) : whole_.pathFrom(start_)};
     std::map<uint32_t, uint32_t> callers; // by routine: calls from routines whose position in the list is not known yet
-    std::map<uint32_t, RoutineWay> found;
+    std::map<uint32_t, RoutinePath> found;
     std::vector<RoutineId> open = calleesOf(paths[0]);
     while (!open.empty()) {
       const RoutineId routine = open.back();
       open.pop_back();
       if (found.contains(routine.index)) continue;
-      RoutineWay& way = found[routine.index] = whole_.wayFrom({.routine = routine});
-      way.runs = 0;
-      for (const RoutineWay::Call& call : way.calls) ++callers[call.callee.index];
-      std::ranges::copy(calleesOf(way), std::back_inserter(open));
+      RoutinePath& path = found[routine.index] = whole_.pathFrom({.routine = routine});
+      path.runs = 0;
+      for (const RoutinePath::Call& call : path.calls) ++callers[call.callee.index];
+      std::ranges::copy(calleesOf(path), std::back_inserter(open));
     }
-    for (const RoutineWay::Call& call : paths[0].calls) ++callers[call.callee.index];
+    for (const RoutinePath::Call& call : paths[0].calls) ++callers[call.callee.index];
     for (size_t i = 0; i < paths.size(); ++i)
-      for (const RoutineWay::Call& call : std::vector(paths[i].calls)) {
-        RoutineWay& callee = found[call.callee.index];
+      for (const RoutinePath::Call& call : std::vector(paths[i].calls)) {
+        RoutinePath& callee = found[call.callee.index];
         callee.runs = saturatedSum(callee.runs, paths[i].runs);
         if (--callers[call.callee.index] == 0) paths.push_back(callee);
       }
@@ -227,9 +227,9 @@ public:
   }
 
 private:
-  static std::vector<RoutineId> calleesOf(const RoutineWay& way) {
+  static std::vector<RoutineId> calleesOf(const RoutinePath& path) {
     std::vector<RoutineId> callees;
-    for (const RoutineWay::Call& call : way.calls) callees.push_back(call.callee);
+    for (const RoutinePath::Call& call : path.calls) callees.push_back(call.callee);
     return callees;
   }
 
@@ -275,7 +275,7 @@ LongestRun longestRun(const Partition& partition, TaskId task) {
   return {.weight =
               static_cast<uint32_t>(std::min<uint64_t>(paths.cost(), partition.module().tasks[task.index].budget)),
           .loops = !paths.loops().empty(),
-          .straight = paths.straight()};
+          .loopFree = paths.loopFreeEnd()};
 }
 
 LongestPath longestPath(const Partition& partition, TaskId task, std::span<const uint64_t> costs) {

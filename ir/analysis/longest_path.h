@@ -10,22 +10,22 @@
 namespace rung::ir {
 
 // Where the loops of a run end.
-struct Straight {
+struct LoopFreeEnd {
   uint32_t chunk = RUNG_PC_DONE; // from this chunk on, outside of calls, no loops; RUNG_PC_DONE: no such chunk
   uint32_t weight = 0;           // of the longest path from there or from a later chunk, at most UINT32_MAX
 };
 
 struct LongestRun {
-  uint32_t weight = 0; // at most the task's budget
-  bool loops = false;  // control may loop; the weight is that of a path without the jumps that close loops
-  Straight straight;   // not set for a partitioned task
+  uint32_t weight = 0;  // at most the task's budget
+  bool loops = false;   // control may loop; the weight is that of a path without the jumps that close loops
+  LoopFreeEnd loopFree; // not set for a partitioned task
 };
 
 // Of a task, or of the longest of its parts.
 LongestRun longestRun(const Partition& partition, TaskId task);
 
 // The part of a path that lies in one routine.
-struct RoutineWay {
+struct RoutinePath {
   struct Call {
     uint32_t rung = 0;
     RoutineId callee;
@@ -42,7 +42,7 @@ struct LongestPath {
   uint32_t part = 0; // of a partitioned task: the longest part, from 0
   // The task's own routine first, each routine before those that it calls. Every execution of a routine takes the same
   // path.
-  std::vector<RoutineWay> routines;
+  std::vector<RoutinePath> routines;
   // Sets of rungs among which control may loop, by number, ascending.
   std::vector<std::vector<uint32_t>> loops;
 };

@@ -188,8 +188,8 @@ private:
       const LongestRun longest = longestRun(layout_.shape(), TaskId{i});
       out.longest = longest.weight;
       out.loops = longest.loops ? 1 : 0;
-      out.loop_free_chunk = longest.straight.chunk;
-      out.loop_free_weight = longest.straight.weight;
+      out.loop_free_chunk = longest.loopFree.chunk;
+      out.loop_free_weight = longest.loopFree.weight;
       append(readBytes(layout_.memory(), TaskId{i}), tables_.reads, out.read_first, out.read_count);
       if (!module_.instrumented) // an instrumented run also changes its counters
         append(changedWords(layout_.memory(), TaskId{i}), tables_.changes, out.change_first, out.change_count);

@@ -39,30 +39,30 @@ public:
     findIndexCells(rung, cells_);
     if (cells_.empty() || cells_.size() > kMaxCells) return false;
     findWays();
-    if (ways_.empty()) return false;
+    if (versions_.empty()) return false;
     split(rung);
     return true;
   }
 
 private:
   void findWays() {
-    ways_.clear();
+    versions_.clear();
     const auto all = static_cast<uint32_t>(std::ranges::count_if(rung_->ops, mayBeKnown));
     if (all < kLeastGainFixed) return;
     const uint32_t before = known(wholeCells());
     for (size_t n = 0; hasValues(n); ++n) {
-      CellRanges way = valuesOf(n);
-      if (known(way) >= before + kLeastGainFixed) ways_.push_back(std::move(way));
+      CellRanges version = valuesOf(n);
+      if (known(version) >= before + kLeastGainFixed) versions_.push_back(std::move(version));
     }
-    if (!ways_.empty()) return;
+    if (!versions_.empty()) return;
     uint32_t most = before + kLeastGain - 1;
     for (const uint64_t limit : kLimits) {
       if (most >= all) return;
-      const CellRanges way = below(limit);
-      const uint32_t now = known(way);
+      const CellRanges version = below(limit);
+      const uint32_t now = known(version);
       if (now <= most) continue;
       most = now;
-      ways_.assign(1, way);
+      versions_.assign(1, version);
     }
   }
 
@@ -108,21 +108,21 @@ private:
   void split(Rung& rung) {
     const Op first = rung.ops.front();
     writer_.start(rung);
-    for (const CellRanges& way : ways_) {
-      CellRanges held = way;
+    for (const CellRanges& version : versions_) {
+      CellRanges held = version;
       ranges_.run(rung, cells_, held);
-      writer_.openIf(first, question(first, way), &way == &ways_.back() ? kMostly : kEven);
+      writer_.openIf(first, question(first, version), &version == &versions_.back() ? kMostly : kEven);
       for (const Op& op : rung.ops)
         if (!becomesConstant(op) && !shrinks(op) && op.code != OpCode::Note) writer_.copy(op);
       writer_.turnElse(first, leaving());
     }
     for (const Op& op : rung.ops) writer_.copy(op); // the unchanged rung, the only version that keeps its notes
-    for (size_t n = 0; n < ways_.size(); ++n) writer_.closeIf(first, leaving(), transferValues());
+    for (size_t n = 0; n < versions_.size(); ++n) writer_.closeIf(first, leaving(), transferValues());
     writer_.finish(rung);
   }
 
   // Whether the cells are in the ranges of a version.
-  ValueId question(const Op& at, const CellRanges& way) {
+  ValueId question(const Op& at, const CellRanges& version) {
     ValueId all;
     for (size_t c = 0; c < cells_.size(); ++c) {
       const Cell& cell = cells_[c];
@@ -130,8 +130,8 @@ private:
       load.ref = cell.place.space.index;
       load.imm = cell.place.first;
       const ValueId value = load.result;
-      const OpCode compare = way[c].isOne() ? OpCode::Eq : OpCode::LeU;
-      const ValueId bound = writer_.putConstant(at, cell.type, way[c].high);
+      const OpCode compare = version[c].isOne() ? OpCode::Eq : OpCode::LeU;
+      const ValueId bound = writer_.putConstant(at, cell.type, version[c].high);
       const ValueId holds = writer_.putBefore(at, compare, cell.type, {value, bound}).result;
       all = all.valid() ? writer_.putBefore(at, OpCode::And, Type::Bit, {all, holds}).result : holds;
     }
@@ -197,7 +197,7 @@ private:
   RungRewriter writer_;
   std::vector<Cell> cells_;
   RungRanges ranges_;
-  std::vector<CellRanges> ways_;
+  std::vector<CellRanges> versions_;
 };
 
 } // namespace

@@ -24,23 +24,23 @@ std::vector<uint8_t> initialContents(const rung_program& program, std::span<cons
 
 Replacement::Replacement(const rung_program& running, const Runnable& next, PlaceName nameOf)
     : loaded_(next, running.memory_size),
-      ways_{Way(running, next.program, nameOf), Way(next.program, running, nameOf)} {
+      directions_{Direction(running, next.program, nameOf), Direction(next.program, running, nameOf)} {
   if (next.memory == nullptr) planSharedBlock(running);
 }
 
 void Replacement::planSharedBlock(const rung_program& running) {
   const uint32_t bytes = std::max(running.memory_size, loaded_.program->memory_size);
-  std::vector<bool> staying = ways_[0].transfer.staying(bytes);
-  const std::vector<bool> back = ways_[1].transfer.staying(bytes);
+  std::vector<bool> staying = directions_[0].transfer.staying(bytes);
+  const std::vector<bool> back = directions_[1].transfer.staying(bytes);
   for (uint32_t i = 0; i < bytes; ++i) staying[i] = staying[i] && back[i];
   const auto changed = static_cast<uint64_t>(std::ranges::count(staying, false));
-  if (kSwapCost * changed >= ways_[0].transfer.bytes()) return;
+  if (kSwapCost * changed >= directions_[0].transfer.bytes()) return;
   sharesBlock_ = true;
   swappedBytes_ = changed;
   swaps_ = StateTransfer::leaving(staying, 0, bytes);
-  for (Way& way : ways_) way.inSharedBlock = way.transfer.without(staying);
-  ways_[0].contents = initialContents(*loaded_.program, swaps_, bytes);
-  ways_[1].contents = initialContents(running, swaps_, bytes);
+  for (Direction& direction : directions_) direction.inSharedBlock = direction.transfer.without(staying);
+  directions_[0].contents = initialContents(*loaded_.program, swaps_, bytes);
+  directions_[1].contents = initialContents(running, swaps_, bytes);
 }
 
 // The block may be another one than that in which the program once was, and may be the host's.
@@ -52,7 +52,7 @@ bool Replacement::mayShare(const LoadedProgram& running) const noexcept {
 
 void Replacement::beginAnew(bool shares) noexcept {
   if (!shares) return loaded_.clear();
-  const uint8_t* contents = way().contents.data();
+  const uint8_t* contents = direction().contents.data();
   for (const rung_span& span : swaps_) {
     std::memcpy(loaded_.block.get() + span.offset, contents, span.size);
     contents += span.size;
@@ -62,10 +62,10 @@ void Replacement::beginAnew(bool shares) noexcept {
 void Replacement::exchange(LoadedProgram& running, OwnContents own) noexcept {
   const bool shares = mayShare(running);
   if (own == OwnContents::Initial && hasRun_) beginAnew(shares);
-  (shares ? way().inSharedBlock : way().transfer).run(running.block.get(), loaded_.block.get());
+  (shares ? direction().inSharedBlock : direction().transfer).run(running.block.get(), loaded_.block.get());
   std::swap(running, loaded_);
   hasRun_ = true;
-  wayBack_.store(!wayBack_.load(std::memory_order_relaxed), std::memory_order_release);
+  isReturn_.store(!isReturn_.load(std::memory_order_relaxed), std::memory_order_release);
   if (!shares) return;
   std::swap(running.block, loaded_.block);
   std::swap(running.blockBytes, loaded_.blockBytes);

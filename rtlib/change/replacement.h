@@ -34,24 +34,24 @@ public:
   const rung_program& next() const { return *loaded_.program; }
   const std::shared_ptr<const CopyLists>& copyLists() const { return loaded_.copyLists; } // of the next program
   // What happens to the state when the program held here takes over. Any thread.
-  const StateTransfer& transfer() const noexcept { return way().transfer; }
+  const StateTransfer& transfer() const noexcept { return direction().transfer; }
   // The number of bytes that taking over copies; its time is proportional to it. All of the state is copied if the
   // block of the running program has no room for the next one. Any thread.
   uint64_t bytes() const noexcept {
-    return sharesBlock_ ? way().inSharedBlock.bytes() + 2 * swappedBytes_ : way().transfer.bytes();
+    return sharesBlock_ ? direction().inSharedBlock.bytes() + 2 * swappedBytes_ : direction().transfer.bytes();
   }
 
 private:
   friend class Instance;
   // The change from one of the two programs to the other.
-  struct Way {
-    Way(const rung_program& from, const rung_program& to, PlaceName nameOf)
+  struct Direction {
+    Direction(const rung_program& from, const rung_program& to, PlaceName nameOf)
         : transfer(from, to, nameOf), inSharedBlock(transfer) {}
     StateTransfer transfer;
     StateTransfer inSharedBlock;   // without the bytes that stay where they are
     std::vector<uint8_t> contents; // initial contents of the program, if blocks are swapped
   };
-  const Way& way() const noexcept { return ways_[wayBack_.load(std::memory_order_acquire) ? 1 : 0]; }
+  const Direction& direction() const noexcept { return directions_[isReturn_.load(std::memory_order_acquire) ? 1 : 0]; }
   // If most of the state stays at its place, the next program takes over the memory block of the running one. Other
   // contents are prepared in the second block, and swapped with it.
   void planSharedBlock(const rung_program& running);
@@ -61,8 +61,8 @@ private:
   void exchange(LoadedProgram& running, OwnContents own) noexcept;
 
   LoadedProgram loaded_;
-  std::array<Way, 2> ways_; // there and back
-  std::atomic<bool> wayBack_{false};
+  std::array<Direction, 2> directions_; // there and back
+  std::atomic<bool> isReturn_{false};
   bool hasRun_ = false;      // the program held here
   bool sharesBlock_ = false; // because that takes less time
   std::vector<rung_span> swaps_;

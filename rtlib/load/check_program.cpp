@@ -403,7 +403,7 @@ private:
       checkReads(i);
       piece("task", i, "changes", t.change_first, t.change_count, p_.change_count);
       if (t.change_count > RUNG_MOST_CHANGES) failAt("task", i, "has too many changes");
-      if (t.loop_free_chunk != RUNG_PC_DONE) index("task", i, "straight chunk", t.loop_free_chunk, p_.chunk_count);
+      if (t.loop_free_chunk != RUNG_PC_DONE) index("task", i, "loop-free chunk", t.loop_free_chunk, p_.chunk_count);
       if (t.part_count == 0) failAt("task", i, "has no parts, expected at least 1");
       if (error_.empty()) checkParts(i, t);
     }

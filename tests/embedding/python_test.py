@@ -1135,7 +1135,7 @@ class Profiled(Case):
 # ---- watching --------------------------------------------------------------------------------------------------------
 
 class Watching(Case):
-    def test_the_newest_pass(self):
+    def test_the_newest_scan(self):
         plc = self.plc("values")
         with rung.Watch(plc, ["COUNT", "SPEED", "WORDS"]) as watch:
             self.assertIsNone(watch.newest())
@@ -1144,18 +1144,18 @@ class Watching(Case):
             plc["COUNT"] = 50  # not at the end of a scan
             sample, values = watch.newest()
             self.assertEqual(values, {"COUNT": 3, "SPEED": 2.5, "WORDS": 7})
-            self.assertEqual((sample.pass_, sample.now_us, sample.generation, sample.lost), (3, plc.state().now_us, 0, 0))
+            self.assertEqual((sample.scan, sample.now_us, sample.generation, sample.lost), (3, plc.state().now_us, 0, 0))
             self.assertEqual(watch.newest(), (sample, values))
             self.assertEqual(list(watch.samples()), [])  # none is kept
         self.fails(rung.Status.BAD_HANDLE, watch.newest, text="not that of a watch")
         self.fails(rung.Status.BAD_HANDLE, list, watch.samples())
         watch.close()  # again
 
-    def test_every_pass(self):
+    def test_every_scan(self):
         plc = self.plc("values")
         watch = rung.Watch(plc, iter(["COUNT"]), depth=4)
         plc.scan(3)
-        self.assertEqual([(sample.pass_, values["COUNT"]) for sample, values in watch.samples()], [(1, 1), (2, 2), (3, 3)])
+        self.assertEqual([(sample.scan, values["COUNT"]) for sample, values in watch.samples()], [(1, 1), (2, 2), (3, 3)])
         plc.scan(6)
         samples = list(watch.samples())
         self.assertEqual([values["COUNT"] for _, values in samples], [4, 5, 6, 7])

@@ -224,7 +224,7 @@ std::string shownAsJson(const Difference& difference, const ir::Module& before, 
   Json rungs = Json::array();
   for (const RungChange& change : difference.rungs) {
     Json paths = Json::array();
-    for (const OtherWay& way : change.paths) paths.push_back({{"before", way.before}, {"after", way.after}});
+    for (const ChangedPath& path : change.paths) paths.push_back({{"before", path.before}, {"after", path.after}});
     rungs.push_back({{"change", nameOf(change.kind)},
                      {"before", rungJson(before, change.before)},
                      {"after", rungJson(after, change.after)},
@@ -274,7 +274,7 @@ void addRung(const RungChange& change, const Module& before, const Module& after
     if (old.rung != nullptr) addLines(*old.rung, '-', out);
     if (now.rung != nullptr) addLines(*now.rung, '+', out);
   }
-  for (const OtherWay& way : change.paths) put(out, "  leads to {}, before: to {}\n", way.after, way.before);
+  for (const ChangedPath& path : change.paths) put(out, "  leads to {}, before: to {}\n", path.after, path.before);
 }
 
 void addNames(const std::vector<NameChange>& changes, std::string_view what, std::string& out) {

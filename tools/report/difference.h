@@ -43,17 +43,17 @@ struct ShownRung {
 };
 
 // An exit of a rung that leads elsewhere in the other version.
-struct OtherWay {
+struct ChangedPath {
   std::string before; // "rung 7 "lamps", old.lad:20", "the end of MAIN"
   std::string after;
-  bool operator==(const OtherWay&) const = default;
+  bool operator==(const ChangedPath&) const = default;
 };
 
 struct RungChange {
   ChangeKind kind = ChangeKind::Added;
-  ShownRung before;            // null if added
-  ShownRung after;             // null if removed
-  std::vector<OtherWay> paths; // changed exits of a rung that is otherwise the same
+  ShownRung before;               // null if added
+  ShownRung after;                // null if removed
+  std::vector<ChangedPath> paths; // changed exits of a rung that is otherwise the same
 };
 
 // A name, a message or a key of the configuration, with its meaning in both versions.

@@ -155,9 +155,9 @@ struct Paths {
   const std::vector<uint32_t>* targets = nullptr;
 };
 
-class WayCells {
+class PathCells {
 public:
-  explicit WayCells(const Module& module) {
+  explicit PathCells(const Module& module) {
     for (uint32_t r = 0; r < module.routines.size(); ++r)
       for (const Rung& rung : module.routines[r].rungs)
         if (const Op* op = cellOf(rung)) cells_.try_emplace(cellKey(*op), Paths{r, &rung.transfer.targets});
@@ -228,7 +228,7 @@ std::vector<bool> sharedSlots(const Module& module) {
 class Meanings {
 public:
   Meanings(const Module& module, const GivenNumbers& given, const FormerNames& former, std::vector<bool> shared)
-      : module_(module), given_(given), former_(former), drawing_(module), ways_(module), places_(module, former),
+      : module_(module), given_(given), former_(former), drawing_(module), pathCells_(module), places_(module, former),
         shared_(std::move(shared)) {}
 
   std::vector<DrawnRung> run() {
@@ -284,12 +284,12 @@ private:
 
   // Constants that may be stored in a cell that selects paths, also as one of several alternatives.
   void findExits(const Rung& rung) {
-    waysOf_.clear();
+    pathsOf_.clear();
     std::unordered_map<uint32_t, const Op*> definitions;
     for (const Op& op : rung.ops)
       if (op.resultCount == 1) definitions.emplace(op.result.index, &op);
     for (const Op& op : rung.ops) {
-      const Paths* paths = ways_.storedBy(op);
+      const Paths* paths = pathCells_.storedBy(op);
       if (paths == nullptr) continue;
       std::vector<ValueId> open{arg(rung, op, 0)};
       while (!open.empty()) {
@@ -297,7 +297,7 @@ private:
         open.pop_back();
         if (at == definitions.end()) continue;
         const Op& source = *at->second;
-        if (source.code == OpCode::Const) waysOf_.emplace(source.result.index, paths);
+        if (source.code == OpCode::Const) pathsOf_.emplace(source.result.index, paths);
         if (source.code == OpCode::Select) open.insert(open.end(), {arg(rung, source, 1), arg(rung, source, 2)});
       }
     }
@@ -310,7 +310,7 @@ private:
       exits.push_back({.to = Exit::To::Routine, .index = drawing_.homeOf(transfer.callee.index)});
     if (transfer.kind == TransferKind::Goto) exits.push_back(drawing_.exitTo(routine, transfer.target));
     // The exits are those of the rungs that store the number.
-    if (transfer.kind != TransferKind::Switch || WayCells::cellOf(rung) != nullptr) return;
+    if (transfer.kind != TransferKind::Switch || PathCells::cellOf(rung) != nullptr) return;
     put(out, " {} of {}", transfer.value.index, transfer.targets.size());
     for (const uint32_t target : transfer.targets) exits.push_back(drawing_.exitTo(routine, target));
   }
@@ -326,11 +326,11 @@ private:
   }
 
   void addNumber(const Op& op, std::string& out, std::vector<Exit>& exits) {
-    if (const auto at = waysOf_.find(op.result.index); at != waysOf_.end()) {
+    if (const auto at = pathsOf_.find(op.result.index); at != pathsOf_.end()) {
       const std::vector<uint32_t>& targets = *at->second->targets;
-      const auto way = static_cast<uint64_t>(op.imm);
-      exits.push_back(drawing_.exitTo(at->second->routine, way < targets.size() ? targets[way] : targets.at(0)));
-      return put(out, " way");
+      const auto path = static_cast<uint64_t>(op.imm);
+      exits.push_back(drawing_.exitTo(at->second->routine, path < targets.size() ? targets[path] : targets.at(0)));
+      return put(out, " path");
     }
     const auto at = numbers_.find(op.result.index);
     if (at == numbers_.end()) return put(out, " {}", op.imm);
@@ -401,7 +401,7 @@ private:
   const GivenNumbers& given_;
   const FormerNames& former_;
   const Drawing drawing_;
-  const WayCells ways_;
+  const PathCells pathCells_;
   const PlaceTexts places_;
   const std::vector<bool> shared_; // by slot
   // Of the current rung.
@@ -409,7 +409,7 @@ private:
   std::map<uint32_t, size_t> own_; // the rung's private slots, in the order of first use
   std::map<std::string, size_t> ownCells_;
   std::unordered_map<uint32_t, const GivenNumber*> numbers_;
-  std::unordered_map<uint32_t, const Paths*> waysOf_; // constants that select paths
+  std::unordered_map<uint32_t, const Paths*> pathsOf_; // constants that select paths
 };
 
 } // namespace

@@ -82,7 +82,7 @@ PairedRungs::PairedRungs(const Version& before, const Version& after, const Form
   }
   findKept();
   for (Pair& pair : pairs_)
-    if (pair.kind != runtime::RungKind::Changed) pair.paths = waysOf(before, after, pair);
+    if (pair.kind != runtime::RungKind::Changed) pair.paths = pathsOf(before, after, pair);
 }
 
 // Pairs by name; the rest by the meaning of their rungs, the most similar first.
@@ -178,13 +178,13 @@ bool PairedRungs::leadsAlike(const Exit& before, const Exit& after) const {
   return routineBefore_[homeAfter] == homeBefore && keptBefore == keptAfter;
 }
 
-std::vector<OtherWay> PairedRungs::waysOf(const Version& before, const Version& after, const Pair& pair) const {
+std::vector<ChangedPath> PairedRungs::pathsOf(const Version& before, const Version& after, const Pair& pair) const {
   const std::vector<Exit>&old = before_[pair.before].exits, &now = after_[pair.after].exits;
-  std::vector<OtherWay> paths;
+  std::vector<ChangedPath> paths;
   for (size_t i = 0; i < std::min(old.size(), now.size()); ++i) {
     if (leadsAlike(old[i], now[i])) continue;
-    OtherWay way{nameOf(before.module, before_, old[i]), nameOf(after.module, after_, now[i])};
-    if (std::ranges::find(paths, way) == paths.end()) paths.push_back(std::move(way));
+    ChangedPath path{nameOf(before.module, before_, old[i]), nameOf(after.module, after_, now[i])};
+    if (std::ranges::find(paths, path) == paths.end()) paths.push_back(std::move(path));
   }
   return paths;
 }

@@ -23,7 +23,7 @@ public:
     uint32_t before = 0; // index in the list of drawn rungs
     uint32_t after = 0;
     runtime::RungKind kind = runtime::RungKind::Same;
-    std::vector<OtherWay> paths; // changed exits of rungs that mean the same
+    std::vector<ChangedPath> paths; // changed exits of rungs that mean the same
   };
 
   const std::vector<DrawnRung>& before() const { return before_; }
@@ -34,7 +34,7 @@ private:
   void pairRoutines(const Version& before, const Version& after);
   void findKept();
   bool leadsAlike(const Exit& before, const Exit& after) const;
-  std::vector<OtherWay> waysOf(const Version& before, const Version& after, const Pair& pair) const;
+  std::vector<ChangedPath> pathsOf(const Version& before, const Version& after, const Pair& pair) const;
 
   const std::vector<DrawnRung> before_;
   const std::vector<DrawnRung> after_;

@@ -45,7 +45,7 @@ private:
   bool overlaps(const Name& wide, const Name& other) const;
   bool isWrittenBy(const Name& name, const ir::BitRange& bits) const;
   bool isNumber(const ir::BitRange& place) const;
-  std::vector<uint32_t> waysTo(const Definition& name) const;
+  std::vector<uint32_t> pathsTo(const Definition& name) const;
   bool isReachedBy(const Definition& name, const Name& other) const;
   bool isWidenedOver(const Name& name, const Name& other) const;
   bool meets(const Name& name, const Name& other, Diag code) const;
@@ -109,7 +109,7 @@ bool Checker::isNumber(const ir::BitRange& place) const {
 }
 
 // The names, by their definitions, that are used on the line that declares this one.
-std::vector<uint32_t> Checker::waysTo(const Definition& name) const {
+std::vector<uint32_t> Checker::pathsTo(const Definition& name) const {
   std::vector<uint32_t> paths;
   const auto beginOf = [](const frontend::NameUse& use) { return use.range.begin; };
   const LineCol place = sources_.lineCol(name.range.begin);
@@ -124,7 +124,7 @@ std::vector<uint32_t> Checker::waysTo(const Definition& name) const {
 }
 
 bool Checker::isReachedBy(const Definition& name, const Name& other) const {
-  return std::ranges::count(waysTo(name), other.definition) != 0;
+  return std::ranges::count(pathsTo(name), other.definition) != 0;
 }
 
 // Whether the name overlaps the other one only through an operand that is wider than its declaration.
@@ -153,7 +153,7 @@ void Checker::check(const Name& name) {
   const Name* first = nullptr;
   const Name* before = nullptr; // for the same place
   bool isMeant = false;         // declared in terms of one of them
-  const std::vector<uint32_t> paths = waysTo(definitionOf(name));
+  const std::vector<uint32_t> paths = pathsTo(definitionOf(name));
   size_t count = 0;
   forEachAt(
       name.place, names_, longest_, [](const Name& one) { return one.place; },

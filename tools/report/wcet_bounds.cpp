@@ -74,14 +74,14 @@ TaskBound boundTask(const Known& known, ir::TaskId id) {
                   .periodUs = task.periodUs,
                   .parts = task.parts,
                   .budget = task.budget,
-                  .way = ir::longestPath(known.partition, id, known.weights),
+                  .path = ir::longestPath(known.partition, id, known.weights),
                   .instructions = {},
                   .noInstructions = {},
                   .calls = {},
                   .seen = {}};
-  bound.steps = bound.way.loops.empty() ? std::min<uint64_t>(bound.way.cost, task.budget) : task.budget;
+  bound.steps = bound.path.loops.empty() ? std::min<uint64_t>(bound.path.cost, task.budget) : task.budget;
   bound.codeNs = static_cast<double>(bound.steps) * known.nsPerStep;
-  const TaskCost cost(known.partition, id, bound.way.loops);
+  const TaskCost cost(known.partition, id, bound.path.loops);
   boundInstructions(known, cost, bound);
   for (const KnownFunction& of : known.functions)
     if (const uint64_t most = cost.most(of.most); most > 0) bound.calls.push_back({of.function, most});
@@ -179,10 +179,10 @@ std::vector<HostFunction> measureHostFunctions() {
 // Costs along paths, and of what budgets allow.
 
 TaskCost::TaskCost(const ir::Partition& partition, ir::TaskId task, const std::vector<std::vector<uint32_t>>& loops)
-    : partition_(partition), task_(task), hasLoops_(!loops.empty()), inCircle_(partition.rungCount(), false),
+    : partition_(partition), task_(task), hasLoops_(!loops.empty()), inLoop_(partition.rungCount(), false),
       uses_(partition.module().routines.size(), Use::None) {
   for (const std::vector<uint32_t>& loop : loops)
-    for (const uint32_t rung : loop) inCircle_[rung] = true;
+    for (const uint32_t rung : loop) inLoop_[rung] = true;
   const ir::RoutineId entry = partition.module().tasks[task.index].entry;
   uses_[entry.index] = Use::Once;
   std::vector<ir::RoutineId> open{entry};
@@ -190,7 +190,7 @@ TaskCost::TaskCost(const ir::Partition& partition, ir::TaskId task, const std::v
     const ir::RoutineId routine = open.back();
     open.pop_back();
     forCalls(routine, [&](uint32_t rung, ir::RoutineId callee) {
-      const bool again = uses_[routine.index] == Use::Again || inCircle_[rung];
+      const bool again = uses_[routine.index] == Use::Again || inLoop_[rung];
       const Use use = again ? Use::Again : Use::Once;
       if (use <= uses_[callee.index]) return;
       uses_[callee.index] = use;
@@ -243,7 +243,7 @@ uint64_t TaskCost::runsOf(ir::RoutineId routine, std::vector<std::optional<uint6
 bool TaskCost::isRepeated(const ir::Chunk& chunk) const {
   if (uses_[chunk.routine.index] == Use::Again) return true;
   for (uint32_t i = 0; i < chunk.rungCount; ++i)
-    if (inCircle_[partition_.rungNumber(chunk.routine, chunk.firstRung + i)]) return true;
+    if (inLoop_[partition_.rungNumber(chunk.routine, chunk.firstRung + i)]) return true;
   return false;
 }
 
@@ -295,10 +295,10 @@ std::string rungsText(const std::vector<uint32_t>& rungs, const rung_program& pr
 }
 
 // The calls on the path, in the order of the first call of each routine.
-std::string calleesText(const ir::RoutineWay& way, const Bounds& bounds, const rung_program& program) {
+std::string calleesText(const ir::RoutinePath& path, const Bounds& bounds, const rung_program& program) {
   std::vector<ir::RoutineId> order;
   std::map<uint32_t, std::vector<uint32_t>> callers; // rung numbers
-  for (const ir::RoutineWay::Call& call : way.calls) {
+  for (const ir::RoutinePath::Call& call : path.calls) {
     std::vector<uint32_t>& rungs = callers[call.callee.index];
     if (rungs.empty()) order.push_back(call.callee);
     rungs.push_back(call.rung);
@@ -310,14 +310,14 @@ std::string calleesText(const ir::RoutineWay& way, const Bounds& bounds, const r
   return text;
 }
 
-std::string wayText(const TaskBound& task, const Bounds& bounds, const rung_program& program) {
+std::string pathText(const TaskBound& task, const Bounds& bounds, const rung_program& program) {
   std::string text;
-  for (const ir::RoutineWay& way : task.way.routines) {
-    std::string line = "  " + bounds.routines[way.routine.index];
-    if (&way == &task.way.routines[0] && task.parts > 1) line += fmt::format(", part {}", task.way.part + 1);
-    if (&way != &task.way.routines[0]) line += ", " + counted(way.cost);
-    if (way.runs != 1) line += fmt::format(", {} times", way.runs);
-    text += wrapped(line + ": " + rungsText(way.rungs, program) + calleesText(way, bounds, program), "    ");
+  for (const ir::RoutinePath& path : task.path.routines) {
+    std::string line = "  " + bounds.routines[path.routine.index];
+    if (&path == &task.path.routines[0] && task.parts > 1) line += fmt::format(", part {}", task.path.part + 1);
+    if (&path != &task.path.routines[0]) line += ", " + counted(path.cost);
+    if (path.runs != 1) line += fmt::format(", {} times", path.runs);
+    text += wrapped(line + ": " + rungsText(path.rungs, program) + calleesText(path, bounds, program), "    ");
   }
   return text;
 }
@@ -328,18 +328,18 @@ std::string loopText(const std::vector<uint32_t>& rungs, const rung_program& pro
 
 std::string loopsText(const TaskBound& task, const rung_program& program) {
   std::string text;
-  for (const std::vector<uint32_t>& rungs : task.way.loops)
+  for (const std::vector<uint32_t>& rungs : task.path.loops)
     text += wrapped(fmt::format("  loop: {}", loopText(rungs, program)), "    ");
   if (text.empty()) return text;
   return text + fmt::format("  the budget of {} steps ends the run; with each loop run once, the longest path has {}\n",
-                            task.budget, task.way.cost);
+                            task.budget, task.path.cost);
 }
 
 std::string stepsText(const TaskBound& task) {
-  if (!task.way.loops.empty()) return counted(task.budget) + ", the whole budget: the program may loop";
-  if (task.way.cost > task.budget)
-    return fmt::format("{}, the whole budget: the longest path has {}", counted(task.budget), task.way.cost);
-  return fmt::format("{} of a budget of {}", counted(task.way.cost), task.budget);
+  if (!task.path.loops.empty()) return counted(task.budget) + ", the whole budget: the program may loop";
+  if (task.path.cost > task.budget)
+    return fmt::format("{}, the whole budget: the longest path has {}", counted(task.budget), task.path.cost);
+  return fmt::format("{} of a budget of {}", counted(task.path.cost), task.budget);
 }
 
 std::string seenText(const TaskBound& task) {
@@ -377,7 +377,7 @@ std::string taskText(const TaskBound& task, const Bounds& bounds, const rung_pro
   std::string text = task.parts > 1 ? fmt::format("{}, a part of {}", task.name, task.parts) : task.name;
   text += fmt::format(": at most {}\n", stepsText(task));
   text += instructionsText(task) + timeText(task);
-  return text + seenText(task) + loopsText(task, program) + wayText(task, bounds, program);
+  return text + seenText(task) + loopsText(task, program) + pathText(task, bounds, program);
 }
 
 // The bound of a slice has each loop once; the time that budgets allow is printed beside it.
@@ -385,9 +385,9 @@ std::string sliceText(const Bounds& bounds, const rung_program& program) {
   std::string loops;
   double most = 0;
   for (const TaskBound& task : bounds.tasks) {
-    for (const std::vector<uint32_t>& rungs : task.way.loops)
+    for (const std::vector<uint32_t>& rungs : task.path.loops)
       loops += (loops.empty() ? "" : "; ") + loopText(rungs, program);
-    if (!task.way.loops.empty()) most = std::max(most, task.ns());
+    if (!task.path.loops.empty()) most = std::max(most, task.ns());
   }
   const std::string bound = boundText(bounds.slice, program);
   if (loops.empty()) return wrapped("longest slice, including process-image copies: " + bound, "  ");
@@ -423,11 +423,11 @@ Json rungsJson(const std::vector<uint32_t>& rungs, const rung_program& program) 
   return {{"rungs", stretchesJson(drawnStretches(rungs, program))}, {"index", stretchesJson(stretches(rungs))}};
 }
 
-Json wayJson(const ir::RoutineWay& way, const Bounds& bounds, const rung_program& program) {
-  Json json = {{"routine", bounds.routines[way.routine.index]}, {"runs", way.runs}, {"steps", way.cost}};
-  json.update(rungsJson(way.rungs, program));
+Json pathJson(const ir::RoutinePath& path, const Bounds& bounds, const rung_program& program) {
+  Json json = {{"routine", bounds.routines[path.routine.index]}, {"runs", path.runs}, {"steps", path.cost}};
+  json.update(rungsJson(path.rungs, program));
   json["calls"] = Json::array();
-  for (const ir::RoutineWay::Call& call : way.calls)
+  for (const ir::RoutinePath::Call& call : path.calls)
     json["calls"].push_back({{"rung", program.rungs[call.rung].number},
                              {"index", call.rung},
                              {"routine", bounds.routines[call.callee.index]}});
@@ -435,9 +435,14 @@ Json wayJson(const ir::RoutineWay& way, const Bounds& bounds, const rung_program
 }
 
 Json taskJson(const TaskBound& task, const Bounds& bounds, const rung_program& program) {
-  Json json = {{"name", task.name},           {"period_us", task.periodUs}, {"parts", task.parts},
-               {"part", task.way.part + 1},   {"budget", task.budget},      {"steps", task.steps},
-               {"path_steps", task.way.cost}, {"time_ns", task.ns()}};
+  Json json = {{"name", task.name},
+               {"period_us", task.periodUs},
+               {"parts", task.parts},
+               {"part", task.path.part + 1},
+               {"budget", task.budget},
+               {"steps", task.steps},
+               {"path_steps", task.path.cost},
+               {"time_ns", task.ns()}};
   json["instructions"] = task.instructions ? Json(*task.instructions) : Json(nullptr);
   if (!task.instructions) json["no_instructions"] = task.noInstructions;
   json["calls"] = Json::array();
@@ -446,9 +451,9 @@ Json taskJson(const TaskBound& task, const Bounds& bounds, const rung_program& p
                              {"count", calls.count},
                              {"call_ns", calls.function.ns}});
   json["loops"] = Json::array();
-  for (const std::vector<uint32_t>& loop : task.way.loops) json["loops"].push_back(rungsJson(loop, program));
+  for (const std::vector<uint32_t>& loop : task.path.loops) json["loops"].push_back(rungsJson(loop, program));
   json["path"] = Json::array();
-  for (const ir::RoutineWay& way : task.way.routines) json["path"].push_back(wayJson(way, bounds, program));
+  for (const ir::RoutinePath& path : task.path.routines) json["path"].push_back(pathJson(path, bounds, program));
   if (task.seen)
     json["measured"] = {{"runs", task.seen->runs}, {"steps", task.seen->steps}, {"time_ns", task.seen->ns}};
   return json;

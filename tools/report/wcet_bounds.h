@@ -45,7 +45,7 @@ struct TaskBound {
   uint32_t periodUs = 0; // 0: started only by the schedule or the control
   uint32_t parts = 1;    // of a partitioned task, the values below are those of the part with the largest value
   uint32_t budget = 0;
-  ir::LongestPath way;
+  ir::LongestPath path;
   uint64_t steps = 0;                   // of the longest path, at most the budget; with loops the budget
   std::optional<uint64_t> instructions; // of the program's code, without host functions
   std::string noInstructions;           // why `instructions` is missing
@@ -114,8 +114,8 @@ private:
   const ir::Partition& partition_;
   ir::TaskId task_;
   bool hasLoops_;
-  std::vector<bool> inCircle_; // by rung number
-  std::vector<Use> uses_;      // by routine
+  std::vector<bool> inLoop_; // by rung number
+  std::vector<Use> uses_;    // by routine
 };
 
 } // namespace rung::report

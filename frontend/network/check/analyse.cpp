@@ -141,7 +141,7 @@ public:
     for (Unit& unit : program_.units) Regions(context_, unit, incomplete_).check();
     collect();
     resolveCalls();
-    if (findCircles()) checkDepth();
+    if (findCycles()) checkDepth();
     spread();
     resolveJumps();
     reportUnused();
@@ -153,7 +153,7 @@ private:
   void collect();
   void addLabel(uint32_t unit, uint32_t network);
   void resolveCalls();
-  bool findCircles();
+  bool findCycles();
   void checkDepth();
   void spread();
   void reach(uint32_t unit, uint32_t level);
@@ -230,15 +230,15 @@ void Analysis::resolveCalls() {
   });
 }
 
-// False when there is a circle.
-bool Analysis::findCircles() {
+// False when there is a cycle.
+bool Analysis::findCycles() {
   frontend::CallGraph::Order order = calls_.order();
   order_ = std::move(order.calleesFirst);
   const auto nameOfUnit = [&](uint32_t unit) { return nameOf(language_, program_.units[unit]); };
-  for (const frontend::CallGraph::Circle& circle : order.circles)
-    diagnostics_.report(diag::RecursiveCall, circle.call.range)
-        << nameOfUnit(circle.call.callee) << frontend::CallGraph::throughText(circle, nameOfUnit);
-  return order.circles.empty();
+  for (const frontend::CallGraph::Cycle& cycle : order.cycles)
+    diagnostics_.report(diag::RecursiveCall, cycle.call.range)
+        << nameOfUnit(cycle.call.callee) << frontend::CallGraph::throughText(cycle, nameOfUnit);
+  return order.cycles.empty();
 }
 
 void Analysis::checkDepth() {

@@ -163,7 +163,7 @@ TEST(Tiered, InterpretsWhereTheInterpreterIsFastEnough) {
   EXPECT_GT(both.engine->bound().ns, 0);
 }
 
-TEST(Tiered, WaitsForMachineCodeWhereAProgramMayGoInCircles) {
+TEST(Tiered, WaitsForMachineCodeWhereAProgramMayLoop) {
   uint32_t circling = 0;
   for (uint64_t seed = 0; seed < 10; ++seed) {
     const Both both(ir::randomModule(seed, {.rungs = 6}));

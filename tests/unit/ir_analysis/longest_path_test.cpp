@@ -95,7 +95,7 @@ TEST(LongestRun, IsThatOfTheHeaviestPart) {
 }
 
 // Of all paths from each chunk of the task's routine on.
-TEST(StraightEnd, IsWhereTheLastCircleEnds) {
+TEST(LoopFreeEndOfRuns, IsWhereTheLastLoopEnds) {
   uint32_t between = 0;
   for (uint64_t seed = 0; seed < 400; ++seed) {
     SCOPED_TRACE(seed);
@@ -104,7 +104,7 @@ TEST(StraightEnd, IsWhereTheLastCircleEnds) {
     for (uint32_t t = 0; t < module.tasks.size(); ++t) {
       const Task& task = module.tasks[t];
       if (task.parts != 1) continue;
-      Straight expected;
+      LoopFreeEnd expected;
       uint64_t most = 0;
       for (auto c = static_cast<uint32_t>(partition.chunks().size()); c-- > 0;) {
         if (partition.chunks()[c].routine != task.entry) continue;
@@ -114,7 +114,7 @@ TEST(StraightEnd, IsWhereTheLastCircleEnds) {
         most = std::max(most, *way);
         expected = {.chunk = c, .weight = static_cast<uint32_t>(most)};
       }
-      const Straight found = longestRun(partition, TaskId{t}).straight;
+      const LoopFreeEnd found = longestRun(partition, TaskId{t}).loopFree;
       EXPECT_EQ(found.chunk, expected.chunk);
       EXPECT_EQ(found.weight, expected.weight);
       between += found.chunk != RUNG_PC_DONE && found.chunk != partition.entry(task.entry) ? 1 : 0;
@@ -149,20 +149,20 @@ TEST(LongestPath, IsAWayAndCostsWhatItSays) {
     const Partition partition(module, {.maxChunkRungs = 2});
     const std::vector<uint64_t> weights = rungWeights(partition);
     for (uint32_t t = 0; t < module.tasks.size(); ++t) {
-      const LongestPath way = longestPath(partition, TaskId{t}, weights);
-      ASSERT_FALSE(way.routines.empty());
-      EXPECT_EQ(way.routines[0].routine, module.tasks[t].entry);
-      EXPECT_EQ(way.routines[0].cost, way.cost);
-      EXPECT_EQ(way.routines[0].runs, 1u);
-      std::map<uint32_t, uint64_t> runs{{way.routines[0].routine.index, 1}};
+      const LongestPath path = longestPath(partition, TaskId{t}, weights);
+      ASSERT_FALSE(path.routines.empty());
+      EXPECT_EQ(path.routines[0].routine, module.tasks[t].entry);
+      EXPECT_EQ(path.routines[0].cost, path.cost);
+      EXPECT_EQ(path.routines[0].runs, 1u);
+      std::map<uint32_t, uint64_t> runs{{path.routines[0].routine.index, 1}};
       std::map<uint32_t, uint64_t> costs;
-      for (const RoutineWay& routine : way.routines) {
+      for (const RoutinePath& routine : path.routines) {
         costs[routine.routine.index] = routine.cost;
         EXPECT_EQ(routine.runs, runs[routine.routine.index]); // its callers come before it
-        for (const RoutineWay::Call& call : routine.calls) runs[call.callee.index] += routine.runs;
+        for (const RoutinePath::Call& call : routine.calls) runs[call.callee.index] += routine.runs;
         calls += static_cast<uint32_t>(routine.calls.size());
       }
-      for (const RoutineWay& routine : way.routines) {
+      for (const RoutinePath& routine : path.routines) {
         const std::vector<Rung>& rungs = module.at(routine.routine).rungs;
         const uint32_t first = partition.rungNumber(routine.routine, 0);
         uint64_t cost = 0;
@@ -170,7 +170,7 @@ TEST(LongestPath, IsAWayAndCostsWhatItSays) {
           cost += weights[routine.rungs[i]];
           if (i > 0) EXPECT_TRUE(nextOf(rungs, routine.rungs[i - 1] - first).contains(routine.rungs[i] - first));
         }
-        for (const RoutineWay::Call& call : routine.calls) cost += costs.at(call.callee.index);
+        for (const RoutinePath::Call& call : routine.calls) cost += costs.at(call.callee.index);
         EXPECT_EQ(routine.cost, cost);
       }
     }
@@ -188,7 +188,7 @@ std::vector<RoutineId> reachedRoutines(const Module& module, TaskId task) {
   return reached;
 }
 
-TEST(LongestPath, NamesTheRungsOfCircles) {
+TEST(LongestPath, NamesTheRungsOfLoops) {
   uint32_t found = 0;
   for (uint64_t seed = 0; seed < 200; ++seed) {
     SCOPED_TRACE(seed);
@@ -196,11 +196,11 @@ TEST(LongestPath, NamesTheRungsOfCircles) {
     const Partition partition(module, {.maxChunkRungs = 3});
     for (uint32_t t = 0; t < module.tasks.size(); ++t) {
       if (module.tasks[t].parts != 1) continue;
-      const LongestPath way = longestPath(partition, TaskId{t}, rungWeights(partition));
-      std::map<uint32_t, size_t> circleOf;
-      for (size_t c = 0; c < way.loops.size(); ++c)
-        for (const uint32_t rung : way.loops[c]) EXPECT_TRUE(circleOf.emplace(rung, c).second);
-      found += static_cast<uint32_t>(way.loops.size());
+      const LongestPath path = longestPath(partition, TaskId{t}, rungWeights(partition));
+      std::map<uint32_t, size_t> loopOf;
+      for (size_t c = 0; c < path.loops.size(); ++c)
+        for (const uint32_t rung : path.loops[c]) EXPECT_TRUE(loopOf.emplace(rung, c).second);
+      found += static_cast<uint32_t>(path.loops.size());
       for (const RoutineId routine : reachedRoutines(module, TaskId{t})) {
         const std::vector<Rung>& rungs = module.at(routine).rungs;
         const auto reachedFrom = [&](uint32_t rung) { // in at least one step
@@ -215,10 +215,10 @@ TEST(LongestPath, NamesTheRungsOfCircles) {
         ran.insert(0);
         for (const uint32_t rung : ran) {
           const uint32_t number = partition.rungNumber(routine, rung);
-          EXPECT_EQ(reachedFrom(rung).contains(rung), circleOf.contains(number));
+          EXPECT_EQ(reachedFrom(rung).contains(rung), loopOf.contains(number));
           for (const uint32_t other : ran)
-            if (circleOf.contains(number) && reachedFrom(rung).contains(other) && reachedFrom(other).contains(rung))
-              EXPECT_EQ(circleOf[number], circleOf[partition.rungNumber(routine, other)]);
+            if (loopOf.contains(number) && reachedFrom(rung).contains(other) && reachedFrom(other).contains(rung))
+              EXPECT_EQ(loopOf[number], loopOf[partition.rungNumber(routine, other)]);
         }
       }
     }

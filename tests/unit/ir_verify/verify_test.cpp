@@ -251,7 +251,7 @@ TEST(VerifyCalls, NotTooDeep) {
   expectGood(m);
 }
 
-TEST(VerifyCalls, LongCirclesDoNotOverflowTheStack) {
+TEST(VerifyCalls, LongCyclesDoNotOverflowTheStack) {
   Module m = callChain(100000);
   m.routines.back().rungs[0].transfer = {.kind = TransferKind::Call, .callee = RoutineId{0}};
   EXPECT_FALSE(verify(m, Mode::Final).empty());

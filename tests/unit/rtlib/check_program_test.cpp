@@ -211,8 +211,8 @@ constexpr Case kCases[] = {
 
     {"TaskName", [](TestProgram& t) { t.tasks[0].name = nullptr; }, "task 0 has no name"},
     {"TaskEntry", [](TestProgram& t) { t.tasks[0].entry = 2; }, "task 0 has entry 2, there are 2"},
-    {"TaskStraight", [](TestProgram& t) { t.tasks[0].loop_free_chunk = 2; },
-     "task 0 has straight chunk 2, there are 2"},
+    {"TaskLoopFree", [](TestProgram& t) { t.tasks[0].loop_free_chunk = 2; },
+     "task 0 has loop-free chunk 2, there are 2"},
     {"TaskBudget", [](TestProgram& t) { t.tasks[0].budget = (1u << 26) + 1; },
      "task 0 has too large a budget: 67108865"},
     {"TaskFault", [](TestProgram& t) { t.tasks[0].budget_fault = RUNG_NONE; }, "task 0 has budget fault"},

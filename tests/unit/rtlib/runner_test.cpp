@@ -252,7 +252,7 @@ TEST_F(RunnerTest, ARowEndsOnceARunHasChangedNothing) {
 }
 
 // mem[1] rounds of chunk 0, then 1 and 2; each weighs 3. The tables call 1 and 2 lighter, so that it shows.
-TEST_F(RunnerTest, WhatComesAfterTheLastCircleIsNotCounted) {
+TEST_F(RunnerTest, WhatComesAfterTheLastLoopIsNotCounted) {
   test.addChunk([](uint8_t* mem, rung_ctx*, uint32_t) { return trace(mem, 0), mem[1]-- == 0 ? 1u : 0u; }, 3);
   test.addChunk(step<1, 2>, 3);
   test.addChunk(step<2, RUNG_PC_DONE>, 3);

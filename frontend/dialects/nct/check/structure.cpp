@@ -211,9 +211,9 @@ private:
     for (const Reference& call : calls_)
       if (const auto& callee = module_.subroutines[call.number]) graph.add(bodyOf(call.rung), *callee, call.range);
     const auto nameOf = [&](uint32_t body) { return fmt::format("{}", numberOf(module_.bodies[body])); };
-    for (const frontend::CallGraph::Circle& circle : graph.order().circles)
-      diagnostics_.report(diag::RecursiveCall, circle.call.range)
-          << "subroutine " + nameOf(circle.call.callee) << frontend::CallGraph::throughText(circle, nameOf);
+    for (const frontend::CallGraph::Cycle& cycle : graph.order().cycles)
+      diagnostics_.report(diag::RecursiveCall, cycle.call.range)
+          << "subroutine " + nameOf(cycle.call.callee) << frontend::CallGraph::throughText(cycle, nameOf);
   }
 
   // Of a body that is called: the main part, which has none, is not.

@@ -8,15 +8,15 @@
 
 namespace rung::frontend::technol {
 
-// Circles and depth of calls.
+// Cycles and depth of calls.
 
 void ProcedureCalls::check(const SourceProgram& program, Diagnostics& diagnostics) const {
   const CallGraph::Order order = graph_.order();
   const auto nameOf = [&](uint32_t procedure) { return std::string(program.procedures[procedure].name); };
-  for (const CallGraph::Circle& circle : order.circles)
-    diagnostics.report(diag::RecursiveProcedure, circle.call.range)
-        << program.procedures[circle.call.callee].name << CallGraph::throughText(circle, nameOf);
-  if (order.circles.empty()) checkDepth(order.calleesFirst, diagnostics);
+  for (const CallGraph::Cycle& cycle : order.cycles)
+    diagnostics.report(diag::RecursiveProcedure, cycle.call.range)
+        << program.procedures[cycle.call.callee].name << CallGraph::throughText(cycle, nameOf);
+  if (order.cycles.empty()) checkDepth(order.calleesFirst, diagnostics);
 }
 
 void ProcedureCalls::checkDepth(std::span<const uint32_t> calleesFirst, Diagnostics& diagnostics) const {

@@ -94,7 +94,7 @@ private:
   std::vector<BlockPlan*> plans_;
 };
 
-// Checks a block in the running program: RUNG_OK, or what is wrong.
+// Checks a block in the running program. Returns RUNG_OK, or an error with its sentence.
 int32_t checkPlace(const rung_instance& instance, const HostBlock& block);
 // Adds blocks whose places have been checked.
 void addBlocks(rung_instance& instance, const std::vector<HostBlock>& given);

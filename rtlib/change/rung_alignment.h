@@ -36,10 +36,10 @@ struct RungPair {
 // `after`; a rung in no pair was removed or is new. Takes time in proportion to n log n.
 //
 // In a routine, the common beginning and end of both versions are the same rungs; then those that occur once on each
-// side and keep their order (patience sorting); and so on between these. A remaining rung that is found elsewhere has
-// moved. Of the rungs left between two that are the same, two with one title are one rung that has changed; those
-// without titles are paired in order if there are equally many on both sides. Finally, two rungs with one title
-// anywhere are one rung that has changed.
+// side and keep their order (patience sorting); then the rungs between these, likewise. A remaining rung that is found
+// elsewhere has moved. Of the rungs left between two that are the same, two with one title are one rung that has
+// changed; those without titles are paired in order if there are equally many on both sides. Finally, two rungs with
+// one title anywhere are one rung that has changed.
 std::vector<RungPair> alignRungs(std::span<const RungMark> before, std::span<const RungMark> after);
 
 // The marks of the rungs in a program's table.

@@ -38,7 +38,7 @@ std::optional<std::string> firstDifference(const Instance& here, const Instance&
 // running program also made, in the same run, gets the same answers; any other request stays unanswered, and is
 // reported.
 //
-// What the machine, the NC and the host have written appears as a change of memory between two runs; the shadow gets it
+// Values written by the machine, the NC and the host appear as changes of memory between two runs; the shadow gets them
 // at the same point in time, by name and address as in a replacement. So the schedules must be equal. Forced cells of
 // the running program have their values in the shadow, too, before and after each run.
 

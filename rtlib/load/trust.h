@@ -56,7 +56,7 @@ std::string loadProblem(const FileFacts& file, const ProcessIds& ids, SealState 
 // Why a privileged process must not load a file with these contents; empty: it may load it.
 std::string dependencyProblem(const ElfObject& object);
 
-// ---- what the system says ----
+// ---- queries of the system ----
 
 // Why a user other than root could change a file, or put another in its place; empty: no other user can. `path` is
 // absolute, and none of its parts is a link.

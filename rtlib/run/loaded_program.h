@@ -57,8 +57,8 @@ private:
 struct Runnable {
   const rung_program& program;
   void* engine = nullptr; // rung_ctx::engine of its chunks
-  uint8_t* memory =
-      nullptr; // the memory block, of at least core::Memory::kLeastBlock bytes; null: the instance allocates it
+  // The memory block, of at least core::Memory::kLeastBlock bytes; null: the instance allocates it.
+  uint8_t* memory = nullptr;
   // Names and kinds of the program's services, which outlive the instance's queue of requests; null: its requests have
   // no names.
   const core::ServiceName* services = nullptr;

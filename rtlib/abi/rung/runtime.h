@@ -80,8 +80,7 @@ typedef struct rung_image_options {
   uint32_t size;
   uint32_t allow_unsealed; /* 1: accept a shared object that `rungc build` or `rungc seal` has not sealed; ignored in a
                               process with more privileges than its user */
-  const char*
-      keys_folder; /* folder of public keys for signed programs; null: the system's. Ignored in a privileged process */
+  const char* keys_folder; /* folder of public keys; null: the system's. Ignored in a privileged process */
 } rung_image_options;
 
 /* Loads a compiled program. The seal and the owner of the file are checked before any of it is loaded (docs/security).

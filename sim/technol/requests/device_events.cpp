@@ -337,7 +337,7 @@ std::span<const SimulatedDevices::Event> SimulatedDevices::portEvents() {
   return kEvents;
 }
 
-// ---- what has been sent --------------------------------------------------------------------------------------------
+// ---- sent data ------------------------------------------------------------------------------------------------------
 
 std::string SimulatedDevices::expectSent(std::string_view port, std::span<const NcArgument> keys) {
   std::string_view rest = port;

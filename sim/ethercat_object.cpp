@@ -72,7 +72,7 @@ namespace {
 
 void appendName(uint32_t idn, MailboxData& to) {
   constexpr uint32_t kBytes = 8;
-  to.append(kBytes | uint64_t{kBytes} << 16, 4); // length now, at most
+  to.append(kBytes | uint64_t{kBytes} << 16, 4); // present length, maximum length
   for (const char letter : {'I', 'D', 'N'}) to.append(static_cast<uint8_t>(letter), 1);
   for (uint32_t unit = 10000; unit != 0; unit /= 10) to.append('0' + idn / unit % 10, 1);
 }

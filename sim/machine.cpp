@@ -33,7 +33,7 @@ void Machine::idle() {
   nc_->idle(inside_);
 }
 
-// Of a dialect that runs in slots, the machine works in each.
+// For a dialect with slots, the machine runs in every slot.
 void Machine::scan() {
   if (inside_.faulted()) return idle();
   if (!nc_->control().runsInSlots()) return (void)instance_.scan();

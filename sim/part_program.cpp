@@ -1,4 +1,4 @@
-// The text of part programs.
+// Reading of the text of part programs.
 #include "sim/part_program.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Load, offer, finish.
+// Loading, offering and saving at the end.
 #include "sim/retained_tables.h"
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace rung::sim {
 
 namespace {
 
-// Changes with the order or the meaning of what a model keeps; its size shows the rest.
+// To be changed with the order or the meaning of the data that a model retains; other changes are detected by the size.
 constexpr uint64_t kFormat = 0x52554E474E430001;
 
 } // namespace
@@ -45,7 +45,7 @@ std::string RetainedTables::finish() {
   return saver_->flush() ? std::string() : saver_->problem();
 }
 
-// Requests in another program.
+// Translates requests for another program.
 
 uint32_t Relocation::service(uint32_t number) const {
   return number < from_->service_count ? runtime::findService(*to_, runtime::serviceName(*from_, number)) : RUNG_NONE;
@@ -56,7 +56,7 @@ void Relocation::renumber(core::ServiceRequest& request) const {
   const auto block = row == nullptr ? std::nullopt : row->arguments.find("block");
   request.service = service(request.service);
   if (block && request.service != RUNG_NONE) {
-    int64_t& first = request.args[*block]; // a word of the space
+    int64_t& first = request.args[*block]; // an index of a word in the space
     const auto moved =
         place(runtime::intRef(runtime::findSpace(*from_, nc::nct::kBlockSpace), 4 * static_cast<uint32_t>(first), 32));
     if (moved)

@@ -1,4 +1,4 @@
-// What all simulated NCs have in common (see simulated_nc.h).
+// The common part of all simulated NCs (see simulated_nc.h).
 #include "sim/simulated_nc.h"
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// From blocks of the host to pieces of the memory block, and copying them (see blocks.h).
+// Maps blocks of the host to pieces of the memory block, and copies them (see blocks.h).
 #include "rtlib/api/blocks.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace rung::api {
 namespace {
 
-// The schedule runs the task, rather than the control where there is need.
+// Whether the schedule runs the task, and not only the control.
 bool isScheduled(const rung_program& program, uint32_t task) {
   const auto runs = [&](const rung_step& step) { return step.task == task; };
   return std::ranges::any_of(std::span(program.scan, program.scan_count), runs) ||
@@ -31,7 +31,7 @@ BlockPlace locateBlock(const Environment& environment, const rung_program& progr
   if (ref->kind == runtime::RefKind::Bit && ref->bit != 0) return wrong(BlockState::WithinByte);
   const rung_space& space = program.spaces[ref->space];
   const bool allocated = (space.flags & RUNG_SPACE_ALLOCATED) != 0;
-  const uint64_t bits = uint64_t{ref->width} * ref->count; // beside it may be other cells
+  const uint64_t bits = uint64_t{ref->width} * ref->count; // other cells may follow
   if (allocated && bits % 8 != 0) return wrong(BlockState::WithinByte);
   const uint64_t room = allocated ? bits / 8 : uint64_t{space.byte_count} - ref->byte;
   if (block.bytes > room) return wrong(BlockState::TooLong);

@@ -37,7 +37,7 @@ struct BlockPlace {
 };
 BlockPlace locateBlock(const Environment& environment, const rung_program& program, const HostBlock& block);
 
-// The copies between all blocks and one program. Copying allocates nothing.
+// The copies between all blocks and one program. Scan thread, except add; copying allocates nothing.
 class BlockPlan {
 public:
   // `copies` belongs to this program; its lists outlive the plan.
@@ -46,8 +46,8 @@ public:
 
   void add(const Environment& environment, const HostBlock& block);
 
-  // Copy inputs: `latch` those that a run of the task reads; `readRest` those that no task of the schedule reads, but a
-  // host may look at.
+  // Copy input blocks: `latch` the bytes that a run of the task reads; `readRest` the bytes that no task of the
+  // schedule reads but a host may inspect.
   void latch(uint8_t* memory, uint32_t task) const noexcept { copyIn(reads_[task], memory); }
   void readRest(uint8_t* memory) const noexcept { copyIn(rest_, memory); }
   void write(const uint8_t* memory) const noexcept;
@@ -56,7 +56,7 @@ public:
   bool seesLeftOut() const noexcept { return seesLeftOut_; }
 
 private:
-  static constexpr uint32_t kNowhere = RUNG_NONE; // an offset: the program does not have the bytes
+  static constexpr uint32_t kNowhere = RUNG_NONE; // the offset of bytes that the program does not have
   // Bytes of a block that are adjacent in the program's memory.
   struct Piece {
     uint8_t* host;
@@ -94,7 +94,7 @@ private:
   std::vector<BlockPlan*> plans_;
 };
 
-// Checks a block in the running program: RUNG_OK, or what is wrong.
+// Checks a block in the running program. Returns RUNG_OK, or an error with its sentence.
 int32_t checkPlace(const rung_instance& instance, const HostBlock& block);
 // Adds blocks whose places have been checked.
 void addBlocks(rung_instance& instance, const std::vector<HostBlock>& given);

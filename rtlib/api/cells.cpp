@@ -1,4 +1,4 @@
-// Names to places, in every program that an instance has or may get (see cells.h).
+// Finds the places of names, in every program that an instance has or may get (see cells.h).
 #include "rtlib/api/cells.h"
 
 #include <algorithm>
@@ -27,7 +27,7 @@ std::optional<runtime::Ref> realOf(const rung_program& program, const runtime::R
   return ref.kind == runtime::RefKind::Real ? std::optional(ref) : runtime::asReal(core::Memory(program, nullptr), ref);
 }
 
-// What a host holds for a value of this type.
+// The form in which a host holds a value of this type.
 int formOf(rung_type type) { return type == RUNG_TYPE_F64 ? 1 : type == RUNG_TYPE_TEXT ? 2 : 0; }
 
 } // namespace
@@ -56,10 +56,10 @@ LocatedCell locateCell(const Environment& environment, const rung_program& progr
 
 namespace {
 
-// All elements.
+// Whether any element is left out.
 bool isLeftOut(const rung_program& program, const core::NeededCopies& copies, const runtime::Ref& ref) {
   if (copies.leftOut.empty() || ref.kind == runtime::RefKind::Constant) return false;
-  constexpr uint32_t kExpanded = 8; // bytes of the block for one of a space, where a bit has a byte
+  constexpr uint32_t kExpanded = 8; // bytes of the block per byte of an expanded space
   const core::Memory memory(program, nullptr);
   const uint32_t bytes = (ref.bit + ref.width * ref.count + 7) / 8;
   for (uint32_t i = 0; i < bytes; ++i)
@@ -84,7 +84,7 @@ void CellTable::add(const LocatedCell& cell) {
   count_.store(number + 1, std::memory_order_release);
 }
 
-// False: all are used.
+// False: all numbers are in use.
 bool CellNames::takeNumber(rung_cell& cell) {
   if (!free_.empty()) {
     cell = free_.back();

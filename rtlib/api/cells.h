@@ -34,7 +34,7 @@ rung_type typeOf(const runtime::Ref& ref);
 
 struct LocatedCell {
   CellState state = CellState::Gone;
-  bool writes = false; // as it was looked up
+  bool writes = false; // looked up for writing, too
   rung_type type = RUNG_TYPE_BIT;
   runtime::Ref ref;
   core::Place place; // of the first element
@@ -88,7 +88,7 @@ public:
   // Add or remove a user of a cell. False: no cell has this number.
   bool hold(rung_cell cell);
   bool release(rung_cell cell);
-  // The type at the look-up; nothing if no cell has this number.
+  // The type of the cell when it was looked up; nothing if no cell has this number.
   std::optional<rung_type> typeOf(rung_cell cell);
   std::string nameOf(rung_cell cell); // the cell must exist
   // The place of a cell in a program; nothing if no cell has this number.
@@ -100,7 +100,7 @@ public:
 private:
   struct Entry {
     CellName name;
-    rung_type type = RUNG_TYPE_BIT; // as it was found
+    rung_type type = RUNG_TYPE_BIT; // at the look-up
     uint32_t users = 0;             // 0: the number is free
   };
   bool isUsed(rung_cell cell) const { return cell < entries_.size() && entries_[cell].users != 0; }

@@ -65,8 +65,8 @@ runtime::Instance& insideOf(rung_instance& instance) noexcept;
 
 // Sets, before the first power-on, where the instance stores its retained memory, and whether a thread writes it.
 void setOutside(rung_instance& instance, const runtime::Outside& outside);
-// For tests without a saver thread: lookForSaving writes what is due; cutPower simulates a power failure, after which
-// nothing is written.
+// For tests without a saver thread: lookForSaving writes the images that are due; cutPower simulates a power failure,
+// after which nothing is written.
 void lookForSaving(rung_instance& instance) noexcept;
 void cutPower(rung_instance& instance) noexcept;
 

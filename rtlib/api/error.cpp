@@ -1,4 +1,4 @@
-// The sentence of each thread.
+// The error sentence of each thread.
 #include "rtlib/api/error.h"
 
 #include <cstdarg>
@@ -8,7 +8,7 @@ namespace rung::api {
 
 namespace {
 
-// Within the memory that the dynamic linker reserves for every thread: the first use allocates nothing.
+// Placed in the memory that the dynamic linker reserves for every thread, so that the first use does not allocate.
 [[gnu::tls_model("initial-exec")]] thread_local char sentence[320];
 
 } // namespace
@@ -16,7 +16,7 @@ namespace {
 int32_t fail(rung_status status, const char* format, ...) noexcept {
   std::va_list arguments;
   va_start(arguments, format);
-  char whole[sizeof sentence + 1]; // a character more, to see where the last one begins
+  char whole[sizeof sentence + 1]; // one byte more, to find where the last character begins
   std::vsnprintf(whole, sizeof whole, format, arguments);
   va_end(arguments);
   putText(sentence, whole);

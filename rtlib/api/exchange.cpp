@@ -72,8 +72,8 @@ int32_t rung_instance_next_message(rung_instance* instance, rung_message_info* m
                         .index = seen.index,
                         .real = seen.real,
                         .value = {.integer = seen.value}};
-  if (seen.op != RUNG_MESSAGE_CLEAR) { // which names no values
-    char line[sizeof out.text];        // one character more than fits: whether the last one is whole
+  if (seen.op != RUNG_MESSAGE_CLEAR) { // which has no values
+    char line[sizeof out.text];        // one byte more, to see whether the last character is whole
     putText(out.text, {line, handle->control->describe(next.by->program(), next.message, line)});
   }
   next.by->forget();

@@ -1,4 +1,4 @@
-// Sets of forced cells: prepared for a program, put in effect between two slices.
+// Sets of forced cells: prepared for a program, activated between two slices.
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -20,10 +20,10 @@ struct Force {
   std::string owner;
   rung_type type = RUNG_TYPE_BIT;
   rung_value value{};
-  int64_t sinceUs = 0; // the scan thread's
+  int64_t sinceUs = 0; // scan thread
 };
 
-// Code that a compiler has made, until it runs no longer.
+// Code made by a compiler, released when it is no longer used.
 struct MadeCode {
   MadeCode() = default;
   MadeCode(const MadeCode&) = delete;
@@ -44,8 +44,8 @@ struct rung_forces {
 
   uint32_t mark = kForcesMark;
   rung_instance& instance;
-  std::shared_ptr<Generation> generation; // that they are for
-  std::vector<Force> forces;              // by name
+  std::shared_ptr<Generation> generation; // whose program the forces are for
+  std::vector<Force> forces;              // sorted by name
   runtime::Forcing forcing;
   MadeCode code;
   std::atomic<bool> inEffect{false};
@@ -65,7 +65,7 @@ uint64_t bitsOf(const LocatedCell& cell, rung_value value) {
   return cell.place.real ? std::bit_cast<uint64_t>(value.real) : static_cast<uint64_t>(value.integer);
 }
 
-// As the cell holds it: a bit is 0 or 1, an integer is extended by its sign.
+// The value as the cell holds it: a bit is 0 or 1, an integer is sign-extended.
 rung_value held(const LocatedCell& cell, rung_value value) noexcept {
   if (cell.place.real) return value;
   if (cell.place.width() == 1) return {.integer = value.integer & 1};
@@ -73,7 +73,7 @@ rung_value held(const LocatedCell& cell, rung_value value) noexcept {
   return {.integer = static_cast<int64_t>(static_cast<uint64_t>(value.integer) << unused) >> unused};
 }
 
-// The cell that the name is for those who read it, and, where that is another, the one that the machine writes.
+// Finds the cell where readers read the name, and, if it differs, the cell that the machine writes.
 int32_t locate(const rung_instance& instance, const rung_program& program, const rung_forced_cell& wanted, Force& force,
                std::vector<runtime::ForcedCell>& places) {
   const auto access = static_cast<int32_t>(wanted.access);
@@ -140,7 +140,7 @@ bool same(const Force& a, const Force& b) noexcept {
   return a.owner == b.owner && a.type == b.type && a.value.integer == b.value.integer;
 }
 
-// What was forced to the same value before has been since then.
+// A cell that was already forced to the same value keeps its time.
 void keepTimes(const std::vector<Force>& before, std::vector<Force>& now, int64_t nowUs) noexcept {
   auto old = before.begin();
   for (Force& force : now) {

@@ -17,7 +17,7 @@
 namespace rung::api {
 namespace {
 
-constexpr int kTries = 4; // a slice; one that writes all the time would hold up the scan
+constexpr int kTries = 4; // attempts per slice, so that a host that writes all the time cannot delay the scan
 
 bool isAligned(const uint8_t* at, uint32_t bytes) noexcept { return reinterpret_cast<uintptr_t>(at) % bytes == 0; }
 
@@ -117,7 +117,7 @@ int32_t failLayout(const rung_program& program, const rung_symbol& compiled, con
     one = firstLine(there);
     other = firstLine(here);
   } while (one == other && !(there.empty() && here.empty()));
-  char its[81], ours[81]; // for a sentence
+  char its[81], ours[81]; // for the sentence
   putText(its, one);
   putText(ours, other);
   return fail(
@@ -130,7 +130,7 @@ int32_t failLayout(const rung_program& program, const rung_symbol& compiled, con
 } // namespace
 
 int32_t checkLayout(const rung_program& program, const rung_layout& layout) noexcept {
-  char name[128]; // rungc bind gives no longer ones
+  char name[128]; // rungc bind makes no longer names
   std::snprintf(name, sizeof name, RUNG_LAYOUT_SYMBOL "%s", layout.name);
   const rung_symbol* compiled = runtime::findSymbol(program, name);
   if (compiled == nullptr || static_cast<uint64_t>(compiled->value) == layout.hash) return RUNG_OK;
@@ -163,7 +163,7 @@ using namespace rung::api;
 
 namespace {
 
-// The rows of a layout, looked up in the program that runs.
+// The members of a layout, looked up in the running program.
 struct Rows {
   std::vector<HostBlock> blocks;
   std::vector<BoundVariable> inputs, outputs;

@@ -1,5 +1,5 @@
-// Structs of the host (rung_instance_bind_struct): whole copies of those that its writer guards by counters, and which
-// programs were compiled for them.
+// Structs of the host (rung_instance_bind_struct): consistent copies of structs whose writer guards them with counters,
+// and the check that a program was compiled for their layout.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -11,7 +11,7 @@
 
 namespace rung::api {
 
-// One that is bound. It stays where it is: what is bound refers to its copy.
+// A bound struct. It is not moved, because the bound variables and blocks refer to its copy.
 class HostStruct {
 public:
   HostStruct(const rung_layout& layout, uint8_t* address);
@@ -19,26 +19,26 @@ public:
   const rung_layout& layout() const { return layout_; }
   const uint8_t* address() const { return address_; }
   bool guarded() const { return layout_.counter_bytes != 0; }
-  // Where the program's inputs are taken from: the last whole copy, or the struct itself.
+  // The source of the program's inputs: the last consistent copy, or the struct itself if it has no counters.
   uint8_t* inputs() { return guarded() ? whole_.data() : address_; }
-  // A new copy, where a whole one can be had.
+  // Scan thread: takes a new copy. If the struct changes during every attempt, the last consistent copy stays.
   void take() noexcept;
-  uint32_t inconsistent() const { return inconsistent_; } // slices
+  uint32_t inconsistent() const { return inconsistent_; } // slices without a consistent copy
 
 private:
   static std::vector<core::GuardedMemory::Range> inputRanges(const rung_layout& layout);
 
   rung_layout layout_;
   uint8_t* address_;
-  std::vector<core::GuardedMemory::Range> ranges_; // of its members to the program
+  std::vector<core::GuardedMemory::Range> ranges_; // of the members that the program reads
   std::vector<uint8_t> copy_, whole_;
   uint32_t inconsistent_ = 0;
 };
 
-// What is wrong with a layout; nullptr: nothing. Rows are not looked up in a program.
+// The error in a layout, or null. Members are not looked up in a program.
 const char* problemOf(const rung_layout& layout, const void* address) noexcept;
 
-// RUNG_REFUSED where the program was compiled for another layout of the struct.
+// RUNG_OK, or RUNG_REFUSED if the program was compiled for another layout of the struct.
 int32_t checkLayout(const rung_program& program, const rung_layout& layout) noexcept;
 
 class HostStructs {
@@ -49,11 +49,11 @@ public:
       if (bound->guarded()) bound->take();
   }
   const HostStruct* at(const void* address) const noexcept;
-  // For any thread.
+  // Any thread.
   int32_t check(const rung_program& program) const noexcept;
 
 private:
-  mutable std::mutex mutex_; // held while the list grows or is looked at by other threads
+  mutable std::mutex mutex_; // held while the list grows or another thread reads it
   std::vector<std::unique_ptr<HostStruct>> structs_;
 };
 

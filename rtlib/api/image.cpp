@@ -72,7 +72,7 @@ void Generations::release() {
   releaseLocked();
 }
 
-// One that may run again, a replacement holds.
+// A generation that may run again is held by a replacement.
 void Generations::releaseLocked() {
   std::erase_if(all_, [this](const std::shared_ptr<Generation>& one) {
     return one.use_count() == 1 && !one->isReferredTo() && one.get() != now_.load(std::memory_order_acquire);

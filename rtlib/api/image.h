@@ -28,20 +28,20 @@ struct Image {
   Image& operator=(const Image&) = delete;
   ~Image();
 
-  std::unique_ptr<runtime::SoEngine> loaded; // null: the program was in memory
+  std::unique_ptr<runtime::SoEngine> loaded; // null: the caller passed the program in memory
   const rung_program& program;
   void* engine = nullptr; // rung_ctx::engine
   void (*release)(void* owner) = nullptr;
   void* owner = nullptr;
   std::vector<uint32_t> symbols; // symbols of the author, by index in the program's table
   runtime::Footprint footprint;
-  // The compiler that serves the image, set once, by any thread; null: none.
+  // The compiler attached to the image, set once, by any thread; null: none.
   mutable std::atomic<const rung_code_maker*> maker{nullptr};
 };
 
 // A program of an instance, with the cells and blocks of the host in it. Which program runs is one pointer to a
-// generation. Whatever belongs to a program (messages, a fault, and what was prepared for it: replacements, sets of
-// forces, shadows) refers to its generation.
+// generation. Whatever belongs to a program (messages, a fault, and the replacements, sets of forces and shadows
+// prepared for it) refers to its generation.
 
 class Generations;
 
@@ -67,7 +67,7 @@ struct Generation {
   const std::shared_ptr<const runtime::CopyLists> copyLists; // used by cells and plan
   CellTable cells;
   BlockPlan blockPlan;
-  runtime::ProfileClock clock; // of a program that counts and times its rungs
+  runtime::ProfileClock clock; // for a program that counts and times its rungs
 
 private:
   Generations& all_;

@@ -1,4 +1,4 @@
-// Making, ending and switching on and off; who is inside; what the schedule calls (see instance.h).
+// Creation, freeing and switching on and off; calls and their threads; hooks of the schedule (see instance.h).
 #include "rtlib/api/instance.h"
 
 #include <pthread.h>
@@ -43,7 +43,7 @@ int32_t failCallback() noexcept { return fail(RUNG_WRONG_STATE, "a callback of t
 
 // ---- the schedule ------------------------------------------------------------------------------------------------
 
-// What the control shows, it has heard of: messages of the time before come first.
+// The control must know all messages that it reports as shown, so earlier messages are passed to it first.
 void Hooks::onHook(runtime::Instance& running, uint32_t work) {
   takeMessages(instance_);
   instance_.environment->onHook(running, work);
@@ -81,8 +81,8 @@ void log(const rung_instance& instance, rung_log_level level, const std::string&
     instance.options.log(instance.options.user, level, text.c_str());
 }
 
-// What is on disk of the time before comes first: after a fault that is the last whole scan.
-// Where that cannot be written, the program stays off, and what is to be written stays for the next try.
+// Loads the retained memory, after saving that of the former power-on (after a fault, that of the last whole scan). If
+// it cannot be saved, the program stays off, and the image is kept for the next attempt.
 int32_t takeKept(rung_instance& instance, nc::PowerOn& kind) {
   std::string report, error;
   std::optional<nc::PowerOn> found;
@@ -105,7 +105,7 @@ int32_t takeKept(rung_instance& instance, nc::PowerOn& kind) {
 
 int32_t powerOn(rung_instance& instance, nc::PowerOn kind) {
   instance.on = false;
-  clearOutputs(instance); // until the first slice ends, and where a fault prevents it
+  clearOutputs(instance); // until the first slice ends, or if a fault prevents it
   endShadow(instance);
   if (!instance.keptFile.empty()) {
     if (const int32_t status = takeKept(instance, kind); status != RUNG_OK) return status;
@@ -129,7 +129,7 @@ int32_t powerOn(rung_instance& instance, nc::PowerOn kind) {
   return statusOf(instance);
 }
 
-// Begins the power-off where that has not been. Whether the program still has to be scanned for it.
+// Begins the power-off if necessary. Returns whether the program still needs scans for it.
 bool needsLastScans(rung_instance& instance) noexcept {
   nc::Control& control = *instance.control;
   if (!instance.ending) {
@@ -142,7 +142,7 @@ bool needsLastScans(rung_instance& instance) noexcept {
 }
 
 int32_t powerOff(rung_instance& instance) {
-  // A fault in the last scans spoils what is retained.
+  // Saved before the last scans, because a fault in them would make the retained memory unusable.
   if (instance.retention && !instance.running.faulted()) (void)instance.retention->finish();
   while (needsLastScans(instance)) {
     do runPart(instance, [&] { instance.running.slice(); });
@@ -179,7 +179,7 @@ rung_instance::rung_instance(std::shared_ptr<const Image> from, const rung_insta
               &hooks),
       pace(running, paceOf(given)) {
   generations.enter(*generations.add(*environment, std::move(from), running.copyLists()));
-  control->onReplace(running); // a replacement before the first power-on gets places in exchange
+  control->onReplace(running); // a replacement before the first power-on exchanges places
   beginLeavingOut();
 }
 

@@ -1,4 +1,5 @@
-// What a rung_instance is: the running program, the control of its dialect, and what its host has bound to it.
+// The instance handle of the C library: the running program, the control of its dialect, and everything that the host
+// has bound to it.
 #pragma once
 #include <atomic>
 #include <memory>
@@ -18,7 +19,8 @@
 
 namespace rung::api {
 
-// A message that waits to be taken, and whose it is: that has its texts, and is referred to until then.
+// A message that waits for the host, and the generation that sent it, which has its text and is kept until the host
+// takes the message.
 struct Said {
   rung_message message{};
   Generation* by = nullptr;
@@ -27,14 +29,15 @@ struct Said {
 struct BoundVariable {
   rung_cell cell = 0;
   rung_host_type type = RUNG_HOST_BOOL;
-  bool truth = false; // the cell takes whether the variable is 0
-  // Of a bit-field: its lowest bit in the byte at the address, how many bits, in how many bytes; bits 0: it is none.
+  bool truth = false; // the cell is a bit: 0 if the variable is 0, else 1
+  // Of a bit-field: its lowest bit in the byte at `address`, its number of bits, and the bytes that they occupy. bits
+  // 0: the variable is not a bit-field.
   uint8_t bit = 0, bits = 0, bytes = 0;
   void* address = nullptr;
   double scale = 1;
 };
 
-// The place of the environment in the schedule, with what the host wants to hear of it.
+// Passes the hooks of the schedule to the environment, and reports requests and faults to the host. Scan thread.
 class Hooks final : public runtime::ScheduleHooks {
 public:
   explicit Hooks(rung_instance& instance) : instance_(instance) {}
@@ -55,8 +58,8 @@ struct rung_instance {
                 std::unique_ptr<rung::api::Environment> environment, bool controlAlone);
   ~rung_instance();
 
-  // Process-image copies leave out what no rung accesses, until the host finds or binds something there. Environments
-  // see all of the memory.
+  // Process-image copies leave out bytes that no rung accesses, until the host looks up a cell or binds a variable
+  // there. An environment other than the control alone sees the whole memory, so nothing is left out.
   void beginLeavingOut() noexcept {
     running.setNeededCopiesOnly(controlAlone && !running.neededCopies().leftOut.empty() && !seesLeftOut());
   }
@@ -64,17 +67,17 @@ struct rung_instance {
     if (running.neededCopiesOnly() && seesLeftOut()) running.setNeededCopiesOnly(false);
   }
   bool seesLeftOut() const noexcept { return now().cells.seesLeftOut() || now().blockPlan.seesLeftOut(); }
-  rung::api::Generation& now() const noexcept { return generations.now(); } // the program that runs
+  rung::api::Generation& now() const noexcept { return generations.now(); } // the running program
 
   uint32_t mark = rung::api::kInstanceMark;
-  // The thread that is inside a call; 0: none.
+  // The thread that is executing a call of the library; 0: none.
   mutable std::atomic<uintptr_t> inside{0};
 
   rung_instance_options options;
-  std::string dialect; // of all its programs
+  std::string dialect; // the same for all its programs
   std::unique_ptr<rung::api::Environment> environment;
-  rung::nc::Control* control; // in `environment`
-  bool controlAlone;          // there
+  rung::nc::Control* control; // owned by `environment`
+  bool controlAlone;          // the environment is the control without a simulation
   rung::api::ServiceNames serviceNames;
   rung::api::Hooks hooks;
   rung::runtime::Instance running;
@@ -85,24 +88,24 @@ struct rung_instance {
   rung::api::Watches watches;
   rung::core::FixedRing<rung::api::Said, rung::core::kMessageCapacity> messages;
   rung::runtime::Outside outside;
-  std::string keptFile;                           // "": nothing is kept
-  std::unique_ptr<rung::nc::Retention> retention; // from the first power-on, where something is kept
-  std::mutex retentionChanges;                    // held while that is made anew
-  uint32_t functionChannels = 0;                  // a bit for each that a function was handed over in
-  // The replacement that holds the program before this one: a fault puts that back.
+  std::string keptFile;                           // base path of the retained memory; "": it is not stored
+  std::unique_ptr<rung::nc::Retention> retention; // made at the first power-on if retained memory is stored
+  std::mutex retentionChanges;                    // held while `retention` is replaced
+  uint32_t functionChannels = 0;                  // a bit for each channel in which a function was started
+  // The replacement that holds the former program, which a fault puts back; null: none.
   std::atomic<rung_replacement*> former{nullptr};
   rung::core::ScanUse puttingBack;
-  // The program that a fault has stopped, where another one has taken its place since, and that fault; it is referred
-  // to until the next power-on.
+  // The program that a fault stopped and that the former program has replaced since, and its fault. It is kept until
+  // the next power-on.
   std::atomic<rung::api::Generation*> faulted{nullptr};
   rung_fault fault{};
-  rung_forces* forces = nullptr;             // in effect
-  std::atomic<rung_shadow*> shadow{nullptr}; // that has begun
+  rung_forces* forces = nullptr;             // the active forces
+  std::atomic<rung_shadow*> shadow{nullptr}; // the running shadow
   bool on = false;
   bool faultReported = false; // to the host's callback
-  bool wasOn = false;         // its memory holds something to be retained
+  bool wasOn = false;         // its memory holds contents to be retained
   bool ending = false;        // its power-off has begun
-  uint64_t lastScan = 0;      // and does not wait longer for the program than to that one
+  uint64_t lastScan = 0;      // while ending: the scan at which the power goes off even if the program is not done
   uint64_t scans = 0;
   int64_t passNs = 0;
   int64_t lastPassNs = 0;
@@ -113,12 +116,13 @@ namespace rung::api {
 
 // When a call is allowed.
 enum class When : uint8_t {
-  Always,  // in a callback of the same instance, too
-  Outside, // of its callbacks
-  On,      // outside, while the program is switched on
+  Always,  // also from a callback of the same instance
+  Outside, // not from its callbacks
+  On,      // not from its callbacks, and only while the program is switched on
 };
 
-// One call of the host: the handle is good, and no other thread is inside.
+// One call of the host: checks that the handle is valid and that no other thread is executing a call for this instance.
+// Any thread.
 class Call {
 public:
   explicit Call(const rung_instance* handle, When when = When::Outside) noexcept;
@@ -139,9 +143,9 @@ private:
   int32_t status_ = RUNG_OK;
 };
 
-// The same for what may be called at any time.
+// The instance of a valid handle, else null, with an error: for functions that any thread may call at any time.
 rung_instance* instanceOf(const rung_instance* handle) noexcept;
-// This thread is inside a call for the instance.
+// Whether this thread is executing a call for the instance, so that the caller is one of its callbacks.
 bool isInCallback(const rung_instance& instance) noexcept;
 int32_t failCallback() noexcept;
 

@@ -1,4 +1,4 @@
-// Another program for an instance: prepared outside real time, put in its place between two scans.
+// Another program for an instance: prepared outside real time, activated between two scans.
 #include "rtlib/api/replacing.h"
 
 #include <atomic>
@@ -39,18 +39,18 @@ struct rung_replacement {
   }
 
   const rung_program& program(bool theFormer) const noexcept { return (theFormer ? former : next)->program(); }
-  // The generation that the replacement holds: of its two programs, the one that does not run.
+  // The generation that the replacement holds: of its two programs, the one that is not running.
   Generation& held() const noexcept { return holdsFormer ? *former : *next; }
 
   uint32_t mark = kReplacementMark;
   rung_instance& instance;
   std::shared_ptr<Generation> former, next;
   runtime::Replacement replacement;
-  // Of the program that it holds.
+  // For the program that it holds:
   std::unique_ptr<nc::Places> places;              // of the control
   std::unique_ptr<nc::Places> environmentPlaces;   // of the environment
-  std::unique_ptr<runtime::RetainChannel> channel; // what is kept
-  std::atomic<bool> holdsFormer{false};            // `next` runs
+  std::unique_ptr<runtime::RetainChannel> channel; // for retained memory
+  std::atomic<bool> holdsFormer{false};            // `next` is running
   std::atomic<bool> spent{false};                  // a fault of `next` has put `former` back
   runtime::ScanBound bound;                        // of `next`
   std::string boundText;
@@ -70,7 +70,7 @@ struct rung_shadow {
   std::shared_ptr<Generation> live;
   std::shared_ptr<const Image> image;
   runtime::Shadow shadow;
-  // Of the last report.
+  // Results of the last report:
   std::vector<runtime::ShadowDifference> differences;
   std::string fault;
 };
@@ -95,7 +95,7 @@ rung_rung_change rungChangeOf(const rung_replacement& replacement, const runtime
 
 int32_t failOther() noexcept { return fail(RUNG_BAD_ARGUMENT, "the replacement was made for another instance"); }
 
-// A fault stays that of the program that ran.
+// Keeps the fault of the program that ran, and its generation.
 void keepFault(rung_instance& instance, Generation& ran, const rung_fault& fault) noexcept {
   if (!instance.running.faulted() || instance.faulted != nullptr) return;
   instance.fault = fault;
@@ -156,7 +156,7 @@ void putFormerBack(rung_instance& instance) noexcept {
   instance.puttingBack.leave();
 }
 
-// A program that runs beside an instance before it takes over: prepared, begun, worked off, reported.
+// Shadows: a program that runs beside an instance before it takes over.
 
 void shadowRequest(rung_instance& instance, const core::ServiceRequest& request) noexcept {
   if (rung_shadow* shadow = instance.shadow.load(std::memory_order_relaxed)) shadow->shadow.requested(request);

@@ -6,7 +6,7 @@
 
 namespace rung::api {
 
-// The program of a replacement. The result is a status; after an error there is a sentence.
+// Returns the program of a replacement in `next`. The result is a status; an error has a sentence.
 int32_t nextOf(const rung_instance& instance, const rung_replacement* replacement, std::shared_ptr<Generation>& next);
 
 // Checks that a program has the dialect of the instance, so that it can replace its program or run beside it.

@@ -1,4 +1,4 @@
-// The schedule by its parts, and its state.
+// Running the parts of the schedule, and its state.
 #include "rtlib/api/running.h"
 
 #include <algorithm>
@@ -14,7 +14,8 @@ namespace rung::api {
 
 namespace {
 
-// A function that the host begins before the next slice begins with that one, like those that the steps were for.
+// Called after a part, so that a function that the host starts before the next slice begins with that slice, like
+// earlier ones.
 void stepFunctions(rung_instance& instance) noexcept {
   for (uint32_t left = instance.functionChannels; left != 0; left &= left - 1)
     instance.control->functions(static_cast<uint32_t>(std::countr_zero(left)))->step();
@@ -51,7 +52,7 @@ void endScan(rung_instance& instance) noexcept {
 
 } // namespace
 
-// The rest of a slice has the inputs that it has begun with.
+// The rest of a slice keeps the inputs with which the slice began.
 void beforePart(rung_instance& instance) noexcept {
   if (instance.running.withinSlice()) return;
   instance.structs.takeAll();
@@ -107,7 +108,7 @@ int32_t runCall(rung_instance* handle, Part part) noexcept {
   return statusOf(*call);
 }
 
-// `run` does what is due once the time has passed.
+// Advances the host's clock; `run` then runs the due slices.
 template <class Run>
 int32_t runElapsed(rung_instance* handle, int64_t elapsedNs, Run run) noexcept {
   const Call call(handle, When::On);

@@ -1,5 +1,5 @@
-// Runs the parts of a scan that a host requests, with everything before and after them: functions, bound variables,
-// saving, messages, times. Scan thread; nothing here allocates, locks or throws.
+// Runs the parts of a scan that a host requests, with the work before and after them: functions, bound variables,
+// saving, messages, measured times. Scan thread; nothing here allocates, locks or throws.
 #pragma once
 #include "rtlib/api/instance.h"
 #include "rtlib/run/realtime.h"

@@ -35,7 +35,7 @@ int32_t failState(CellState state) noexcept {
   return RUNG_OK;
 }
 
-// The sentence for a name that is not entered.
+// Reports why a name is not entered.
 int32_t failName(const rung_instance& instance, const rung_program& program, const char* name, CellState state) {
   if (state == CellState::Retyped) return fail(RUNG_WRONG_TYPE, "%s has no room for a real", name);
   if (state == CellState::Constant) return fail(RUNG_WRONG_TYPE, "%s is a constant: it cannot be written", name);
@@ -54,7 +54,7 @@ int32_t checkAccess(int32_t access) noexcept {
 
 int32_t failCell(rung_cell cell) noexcept { return fail(RUNG_BAD_ARGUMENT, "%u is not a cell of this instance", cell); }
 
-// The cell as it can be used now; null: `status` says what is wrong.
+// The cell, if it can be used now; null, with the error in `status`.
 const LocatedCell* usable(const rung_instance& instance, rung_cell cell, bool writes, int32_t& status) noexcept {
   const LocatedCell* found = instance.now().cells.at(cell);
   if (found == nullptr || found->state == CellState::Released)
@@ -88,7 +88,8 @@ core::Place elementPlace(const core::Memory& memory, const LocatedCell& cell, ui
   return element ? runtime::locate(memory, *element) : core::Place{};
 }
 
-// The cell, where `count` elements of it from the first-th on can be given to or taken from `values`.
+// The cell, if it has `count` elements from index `first` on that can be copied to or from `values`; null, with the
+// error in `status`.
 const LocatedCell* elementsOf(const rung_instance& instance, rung_cell cell, bool writes, uint32_t first,
                               uint32_t count, const rung_value* values, int32_t& status) noexcept {
   const LocatedCell* found = numberCell(instance, cell, writes, status);
@@ -111,7 +112,7 @@ int32_t findCell(rung_instance& instance, const rung_program& program, const cha
   return state == CellState::Good ? int32_t{RUNG_OK} : failName(instance, program, name, state);
 }
 
-// Between variables of the host and cells.
+// Conversions between variables of the host and cells.
 
 namespace {
 
@@ -140,7 +141,7 @@ int64_t bitFieldOf(const BoundVariable& v) noexcept {
   return static_cast<int64_t>(negative ? word | ~maskOf(v) : word);
 }
 
-// The bits beside it stay.
+// Other bits of its bytes stay unchanged.
 void setBitField(const BoundVariable& v, int64_t value) noexcept {
   uint64_t word = 0;
   std::memcpy(&word, v.address, v.bytes);
@@ -195,7 +196,7 @@ double realOf(const BoundVariable& v) noexcept {
   return value * v.scale;
 }
 
-// Real to a variable of the host.
+// Stores a real in a variable of the host.
 void setReal(const BoundVariable& v, double value) noexcept {
   if (v.type == RUNG_HOST_F32) return store(v.address, static_cast<float>(value / v.scale));
   store(v.address, value / v.scale);
@@ -203,7 +204,7 @@ void setReal(const BoundVariable& v, double value) noexcept {
 
 } // namespace
 
-// A cell that the program no longer has is neither written nor, as 0, read.
+// Cells that the program no longer has are skipped.
 void readInputs(rung_instance& instance) noexcept {
   const core::Memory memory = instance.running.memory();
   for (const BoundVariable& v : instance.inputs) {
@@ -264,8 +265,8 @@ int32_t checkVariable(const rung_variable& v, uint32_t number) noexcept {
   return RUNG_OK;
 }
 
-// A variable from the program has the value that the machine sees: that of the place which the machine may write, and
-// of the program's own where there is no such place.
+// A variable from the program gets the value that the machine sees: that of the place which the machine may write, or,
+// if there is none, that of the program's own place.
 int32_t findPlace(rung_instance& instance, const rung_variable& v, bool input, rung_cell& cell) {
   const int32_t real = (v.direction & RUNG_BOUND_REAL) != 0 ? RUNG_REAL : 0;
   const int32_t status = findCell(instance, instance.running.program(), v.name, RUNG_WRITE | real, cell);

@@ -4,7 +4,7 @@
 
 namespace rung::api {
 
-// Looks up a cell. The result is a status; after an error there is a sentence.
+// Looks up a cell. The result is a status; an error has a sentence.
 int32_t findCell(rung_instance& instance, const rung_program& program, const char* name, int32_t access,
                  rung_cell& cell);
 // Reports that the running program has no place of this name.

@@ -1,4 +1,4 @@
-// Samples from the scan thread to others.
+// Samples from the scan thread for other threads.
 #include "rtlib/api/watch.h"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace {
 
 rung_value valueOfWord(uint64_t word) noexcept { return std::bit_cast<rung_value>(word); }
 
-// 0 where the program no longer has the cell.
+// The value of a cell; 0 if the program no longer has it.
 uint64_t wordOf(const rung_instance& instance, const core::Memory& memory, rung_cell number) noexcept {
   const LocatedCell& cell = *instance.now().cells.at(number);
   return cell.state == CellState::Good ? std::bit_cast<uint64_t>(firstValue(memory, cell)) : 0;

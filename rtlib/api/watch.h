@@ -1,4 +1,5 @@
-// Cells that other threads look at: what the scan thread leaves for them at the end of a scan, without waiting.
+// Cells that other threads watch: at the end of a scan the scan thread stores samples of their values for these
+// threads, without waiting.
 #pragma once
 #include <array>
 #include <atomic>
@@ -11,7 +12,7 @@
 
 namespace rung::api {
 
-// What is known of a sample, beside its values.
+// The header of a sample, before its values.
 struct SampleHead {
   uint64_t generation = 0;
   uint64_t scan = 0;
@@ -21,15 +22,15 @@ struct SampleHead {
 // The watches of an instance.
 class Watches {
 public:
-  // Any thread. False: there are too many.
+  // Any thread. False: RUNG_MOST_WATCHES are in use.
   bool add(rung_watch& watch);
-  void remove(rung_watch& watch); // the scan thread does not touch it any more
+  void remove(rung_watch& watch); // on return the scan thread no longer uses it
 
-  // Scan thread, at the end of a scan.
+  // Scan thread, at the end of a scan: samples every watch.
   void sample(const rung_instance& instance) noexcept {
     if (count_.load(std::memory_order_relaxed) != 0) sampleEach(instance, false);
   }
-  // Those that have no sample yet.
+  // Scan thread: samples the watches that have no sample yet.
   void sampleNew(const rung_instance& instance) noexcept {
     if (count_.load(std::memory_order_relaxed) != 0) sampleEach(instance, true);
   }
@@ -47,11 +48,12 @@ private:
 
 struct rung_watch {
   rung_watch(rung_instance& of, std::vector<rung_cell> watched, uint32_t depth);
-  ~rung_watch(); // no thread looks at it any more
+  ~rung_watch(); // no thread may use it any more
 
-  // Scan thread.
+  // Scan thread: stores a sample.
   void take(const rung_instance& from, const rung::api::SampleHead& head) noexcept;
-  // Any thread. RUNG_EMPTY: no sample yet, or none that waits; RUNG_LATER: interrupted again and again.
+  // Any thread. `newest` returns the last sample, `next` the oldest queued one. RUNG_EMPTY: no sample yet, or none
+  // queued; RUNG_LATER: the scan thread interrupted every attempt.
   int32_t newest(rung_value* values, rung_sample& sample) const noexcept;
   int32_t next(rung_value* values, rung_sample& sample) noexcept;
 
@@ -66,11 +68,11 @@ private:
   static constexpr size_t kHeadWords = 3;
   size_t words() const noexcept { return kHeadWords + cells.size(); }
 
-  std::vector<uint64_t> scratch_; // the scan thread's: head and values of this scan
+  std::vector<uint64_t> scratch_; // scan thread: head and values of this scan
   rung::core::Published newest_;
-  // Samples that wait, of one writer and one reader.
+  // Queued samples, with one writer and one reader.
   uint32_t depth_;
   std::vector<uint64_t> kept_;
-  rung::core::SlotRing ring_; // of `kept_`
+  rung::core::SlotRing ring_; // slots of `kept_`
   std::atomic<uint64_t> lost_{0};
 };

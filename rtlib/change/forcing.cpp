@@ -1,4 +1,4 @@
-// From cells to bits, and where these are copied.
+// From cells to bits, and to the bits that copies connect with them.
 #include "rtlib/change/forcing.h"
 
 #include <algorithm>
@@ -58,7 +58,7 @@ void Forcing::hold(std::string_view name, uint32_t offset, Bits bit) {
   forCopiesOf(program_, offset, [&](uint32_t copied) { hold(name, copied, bit); });
 }
 
-// The same bits as spaces have them.
+// The forced bits by bytes of spaces.
 void Forcing::nameBytes() {
   std::map<std::pair<uint32_t, uint32_t>, Bits> named;
   const core::Memory memory(program_, nullptr);

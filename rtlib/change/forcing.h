@@ -1,5 +1,5 @@
-// The cells that a person holds at a value while a program runs: which bits of its memory these are, and whether the
-// program's own code would write them. Created and inspected outside real time; Instance::force puts it in effect.
+// The cells that a user forces to a value while a program runs: the bits of its memory that they occupy, and whether
+// the program's own code would write these. Created and inspected outside real time; Instance::force activates it.
 //
 // A cell that process-image copies connect with others (an input and what a task reads of it, an output and its image)
 // is forced together with all of these.
@@ -21,22 +21,21 @@
 namespace rung::runtime {
 
 struct ForcedCell {
-  Ref ref;                    // a Bit, Int or Real; of an array its first element
-  uint64_t bits = 0;          // the value; of an integer its lowest bits
+  Ref ref;                    // a Bit, Int or Real; for an array its first element
+  uint64_t bits = 0;          // the value; for an integer its lowest bits
   std::string_view name = {}; // for messages
 };
 
 class Forcing {
 public:
-  // For a program that runs with its own code, whose chunks find `engine` in their context. The program outlives this
-  // object.
+  // `program` runs with its own code, whose chunks find `engine` in their context. It outlives this object.
   Forcing(const rung_program& program, void* engine, std::span<const ForcedCell> cells);
 
-  // Why the cells cannot be forced together; "" when they can.
+  // Why the cells cannot be forced together; "" if they can.
   const std::string& problem() const { return problem_; }
   // The forced bytes, sorted by space and byte.
   const std::vector<rung_forced_byte>& bytes() const { return bytes_; }
-  // Whether the program's own code may write some of the cells: then it has to be replaced by other code (setCode).
+  // Whether the program's own code may write some of the cells, so that other code has to replace it (setCode).
   bool needsCode() const { return needsCode_; }
   // Code for all chunks that leaves the forced bits as they are.
   void setCode(const core::Code& code) { code_ = code; }
@@ -58,16 +57,15 @@ private:
   const rung_program& program_;
   std::string problem_;
   std::map<uint32_t, Bits> bits_;                               // by offset in the block
-  std::map<std::pair<uint32_t, uint8_t>, std::string> holders_; // by offset and mask: which force holds the bit
+  std::map<std::pair<uint32_t, uint8_t>, std::string> holders_; // by offset and mask: name of the bit's force
   std::vector<core::ForcedBits> held_;
   std::vector<rung_forced_byte> bytes_;
   bool needsCode_ = false;
   core::Code code_;
 };
 
-// The process-image copies (task entry and exit) that read or write a byte of the memory block.
-
-// Calls visit(offset) for each byte that this one is copied to or from.
+// Calls visit(offset) for each byte of the memory block to or from which process-image copies (task entry and exit)
+// copy this one.
 template <class Visit>
 void forCopiesOf(const rung_program& program, uint32_t offset, Visit visit) {
   for (uint32_t i = 0; i < program.copy_count; ++i) {
@@ -77,9 +75,7 @@ void forCopiesOf(const rung_program& program, uint32_t offset, Visit visit) {
   }
 }
 
-// The bits of the memory block that a program's own code may write.
-
-// The bits of one byte, as a mask. Allocates nothing.
+// The bits of a byte of the memory block that a program's own code may write, as a mask. Allocates nothing.
 inline uint8_t writtenBits(const rung_program& program, uint32_t offset) {
   const std::span<const rung_written> writes(program.writes, program.write_count);
   const auto after = std::ranges::upper_bound(writes, offset, {}, &rung_written::offset);

@@ -13,8 +13,8 @@ public:
   // Both programs outlive this object.
   Relocation(const rung_program& from, const rung_program& to) : from_(&from), to_(&to) {}
 
-  // The place in the other program. Nothing: it has no such place, or a cell of another type there. The first symbol
-  // that contains the whole place counts. Looks at every symbol; allocates nothing.
+  // The place in the other program; nothing if it has no such place, or a cell of another type there. The first symbol
+  // that contains the whole place decides. Takes time in proportion to the number of symbols; allocates nothing.
   std::optional<Ref> place(const Ref& place) const noexcept;
 
 protected:

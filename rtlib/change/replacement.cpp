@@ -8,9 +8,9 @@
 namespace rung::runtime {
 namespace {
 
-constexpr uint64_t kSwapCost = 3; // a byte that is swapped is copied there, here and back
+constexpr uint64_t kSwapCost = 3; // copies per swapped byte
 
-// The contents of a block that a program begins with, at these places, one after the other.
+// The initial contents of a program's block at these places, concatenated.
 std::vector<uint8_t> initialContents(const rung_program& program, std::span<const rung_span> places, uint32_t bytes) {
   std::vector<uint8_t> block(bytes), contents;
   for (uint32_t i = 0; i < program.init_count; ++i)
@@ -43,7 +43,7 @@ void Replacement::planSharedBlock(const rung_program& running) {
   directions_[1].contents = initialContents(running, swaps_, bytes);
 }
 
-// The block may be another one than that in which the program once was, and may be the host's.
+// The block may differ from the one that the program used before, and may belong to the host.
 bool Replacement::mayShare(const LoadedProgram& running) const noexcept {
   return sharesBlock_ && running.blockBytes >= loaded_.program->memory_size &&
          loaded_.blockBytes >= running.program->memory_size &&

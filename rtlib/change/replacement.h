@@ -1,4 +1,4 @@
-// A program that is to replace the one of a running instance: prepared and inspected outside real time, put in place
+// A program that is to replace the program of a running instance: prepared and inspected outside real time, activated
 // between two scans (Instance::replace).
 #pragma once
 #include <array>
@@ -15,7 +15,7 @@ namespace rung::runtime {
 enum class ReplaceResult : uint8_t {
   Replaced,
   OtherProgram,   // the replacement was not made for the program that runs
-  WithinScan,     // within a scan: try again later
+  WithinScan,     // a scan has not ended: try again later
   RequestsWait,   // service requests wait, and the new program numbers services differently: try again later
   MechanismWaits, // a mechanism waits at an instruction that the new program does not have: try again later
 };
@@ -28,7 +28,7 @@ enum class OwnContents : uint8_t {
 
 class Replacement {
 public:
-  // `next` is of `running`'s dialect; both outlive this object and the instance's use of them.
+  // `next` has the dialect of `running`; both outlive this object and the instance's use of them.
   Replacement(const rung_program& running, const Runnable& next, PlaceName nameOf = plainPlaceName);
 
   const rung_program& next() const { return *loaded_.program; }
@@ -48,12 +48,12 @@ private:
     Direction(const rung_program& from, const rung_program& to, PlaceName nameOf)
         : transfer(from, to, nameOf), inSharedBlock(transfer) {}
     StateTransfer transfer;
-    StateTransfer inSharedBlock;   // without the bytes that stay where they are
+    StateTransfer inSharedBlock;   // without the bytes that keep their place
     std::vector<uint8_t> contents; // initial contents of the program, if blocks are swapped
   };
   const Direction& direction() const noexcept { return directions_[isReturn_.load(std::memory_order_acquire) ? 1 : 0]; }
-  // If most of the state stays at its place, the next program takes over the memory block of the running one. Other
-  // contents are prepared in the second block, and swapped with it.
+  // If most of the state keeps its place, the next program takes over the memory block of the running one. The
+  // remaining contents are prepared in a second block, and the two are swapped.
   void planSharedBlock(const rung_program& running);
   bool mayShare(const LoadedProgram& running) const noexcept;
   void beginAnew(bool shares) noexcept;
@@ -61,10 +61,10 @@ private:
   void exchange(LoadedProgram& running, OwnContents own) noexcept;
 
   LoadedProgram loaded_;
-  std::array<Direction, 2> directions_; // there and back
+  std::array<Direction, 2> directions_; // to the next program, and back
   std::atomic<bool> isReturn_{false};
   bool hasRun_ = false;      // the program held here
-  bool sharesBlock_ = false; // because that takes less time
+  bool sharesBlock_ = false; // both programs use one memory block, because that takes less time
   std::vector<rung_span> swaps_;
   uint64_t swappedBytes_ = 0; // of one block
 };

@@ -1,4 +1,4 @@
-// Patience alignment, and what it leaves.
+// Patience alignment, and matching of the rungs that it leaves.
 #include "rtlib/change/rung_alignment.h"
 
 #include <algorithm>
@@ -18,10 +18,10 @@ namespace {
 
 using Pair = std::pair<uint32_t, uint32_t>;
 
-// Of pairs with ascending first parts the longest run whose second parts ascend, too.
+// The longest subsequence of pairs, which ascend by their first parts, whose second parts ascend, too.
 std::vector<Pair> longestAscending(const std::vector<Pair>& pairs) {
   constexpr size_t kNone = ~size_t{0};
-  std::vector<size_t> tops; // of each length the pair with the least second part that ends such a run
+  std::vector<size_t> tops; // by length: the pair with the least second part that ends such a subsequence
   std::vector<size_t> before(pairs.size(), kNone);
   for (size_t i = 0; i < pairs.size(); ++i) {
     const auto at = std::ranges::lower_bound(tops, pairs[i].second, {}, [&](size_t top) { return pairs[top].second; });
@@ -65,7 +65,7 @@ private:
       pairs_.emplace_back(--s.beforeEnd, --s.afterEnd);
   }
 
-  // What lies between items that are once on each side is a section of its own.
+  // The items between two that occur once on each side form a section.
   void divide(const Section& s) {
     struct Seen {
       uint32_t before = 0, after = 0, timesBefore = 0, timesAfter = 0;
@@ -171,7 +171,7 @@ private:
     gaps_.push_back({{b, before.end}, {a, after.end}});
   }
 
-  // Of each key, "" for none, the first that is gone is the first that is new.
+  // Pairs removed and new rungs with equal keys in order; "" is not a key.
   template <class Key>
   void join(const Gap& gap, RungKind kind, Key key) {
     std::unordered_map<std::string, std::deque<uint32_t>> gone;
@@ -188,7 +188,7 @@ private:
     }
   }
 
-  // Those without titles, where there are as many on both sides.
+  // Pairs the rungs without titles in order, if there are equally many on both sides.
   void pairInOrder(const Gap& gap) {
     std::vector<uint32_t> gone, added;
     for (uint32_t b = gap.before.first; b < gap.before.end; ++b)
@@ -202,7 +202,7 @@ private:
   std::span<const RungMark> after_;
   std::vector<bool> taken_;  // by rung before
   std::vector<Found> found_; // by rung after
-  std::vector<Gap> gaps_;    // between what is the same
+  std::vector<Gap> gaps_;    // between pairs of the same rungs
 };
 
 } // namespace
@@ -224,13 +224,13 @@ std::vector<RungMark> rungMarks(const rung_program& program) {
   return marks;
 }
 
-// Matching by rungs, and then by keys.
+// Matches state by rungs, and then by keys.
 
 namespace {
 
 constexpr char kNumber = '~'; // before the number of an instruction, see rung_slot
 
-// The key without numbers, and these: the order of the instructions that are alike.
+// The key without its numbers, and the numbers, which give the order of equal instructions.
 using Alike = std::pair<std::string, std::vector<uint32_t>>;
 
 Alike alike(std::string_view key) {
@@ -247,7 +247,7 @@ Alike alike(std::string_view key) {
   return out;
 }
 
-// Of a rung, those of one key, in the order of their instructions.
+// The states of a rung with the same key, in the order of their instructions.
 using Groups = std::map<std::pair<uint32_t, std::string>, std::vector<std::pair<std::vector<uint32_t>, uint32_t>>>;
 
 Groups grouped(std::span<const InstructionState> all, const std::vector<bool>& done, bool byRung) {

@@ -1,5 +1,6 @@
-// Aligns the rungs of two versions of a program: which rung of one is which of the other. Everything that follows a
-// rung from version to version (its state, its counts, its place in a report) uses this alignment.
+// Aligns the rungs of two versions of a program: finds the rung of one version that corresponds to a rung of the other.
+// Everything that follows a rung from version to version (its state, its counts, its place in a report) uses this
+// alignment.
 #pragma once
 #include <cstdint>
 #include <span>
@@ -12,10 +13,10 @@
 
 namespace rung::runtime {
 
-// What distinguishes a rung from others. The texts outlive everything made from them.
+// The properties that identify a rung. The texts outlive everything made from them.
 struct RungMark {
   std::string_view routine;
-  uint64_t what = 0; // equal: the same rung
+  uint64_t what = 0; // a hash of its contents: equal for equal rungs
   std::string_view title;
 };
 
@@ -32,13 +33,13 @@ struct RungPair {
 };
 
 // Aligns two lists of rungs, in which the rungs of a routine are adjacent and in order. The pairs are ascending by
-// `after`; a rung in no pair was removed or is new. Takes n log n.
+// `after`; a rung in no pair was removed or is new. Takes time in proportion to n log n.
 //
 // In a routine, the common beginning and end of both versions are the same rungs; then those that occur once on each
-// side and keep their order (patience sorting); and so on between these. A remaining rung that is found elsewhere has
-// moved. Of the rungs left between two that are the same, two with one title are one rung that has changed; those
-// without titles are paired in order if there are equally many on both sides. Finally, two rungs with one title
-// anywhere are one rung that has changed.
+// side and keep their order (patience sorting); then the rungs between these, likewise. A remaining rung that is found
+// elsewhere has moved. Of the rungs left between two that are the same, two with one title are one rung that has
+// changed; those without titles are paired in order if there are equally many on both sides. Finally, two rungs with
+// one title anywhere are one rung that has changed.
 std::vector<RungPair> alignRungs(std::span<const RungMark> before, std::span<const RungMark> after);
 
 // The marks of the rungs in a program's table.
@@ -47,17 +48,17 @@ std::vector<RungMark> rungMarks(const rung_program& program);
 // Pairs of equal items, ascending on both sides.
 std::vector<std::pair<uint32_t, uint32_t>> align(std::span<const uint64_t> before, std::span<const uint64_t> after);
 
-// Pairs the state that the compiler made for instructions (slots and hidden names) in two versions of a program: which
-// state continues as which.
+// State that the compiler made for an instruction (a slot or a hidden name); matchState pairs it between two versions
+// of a program.
 
 struct InstructionState {
   std::string_view key;      // as in rung_slot
-  uint32_t rung = RUNG_NONE; // the rung that uses it, in rung_program::rungs; RUNG_NONE: no rung does
+  uint32_t rung = RUNG_NONE; // index in rung_program::rungs of the rung that uses it; RUNG_NONE: no rung does
 };
 
-// For each state of the new version the number of the former one; RUNG_NONE: it starts anew. The state of an
-// instruction follows its rung. State without a rung, or of a new rung, is found by its key, if equally many are left
-// on both sides.
+// For each state of the new version, the index of the state that it continues; RUNG_NONE: it starts anew. The state of
+// an instruction follows its rung. State without a rung, or of a new rung, is found by its key, if equally many are
+// left on both sides.
 std::vector<uint32_t> matchState(std::span<const InstructionState> before, std::span<const InstructionState> after,
                                  std::span<const RungPair> rungs);
 

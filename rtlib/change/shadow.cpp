@@ -1,4 +1,4 @@
-// Recording the running program, and running the new one on that.
+// Records the running program, and runs the new one on the records.
 #include "rtlib/change/shadow.h"
 
 #include <algorithm>
@@ -13,12 +13,12 @@ namespace rung::runtime {
 
 namespace {
 
-// What a request gets that the running program did not make: it stays unanswered.
+// Ticket of a request that the running program did not make: it stays unanswered.
 constexpr uint32_t kUnanswered = UINT32_MAX;
 
 std::span<const rung_step> stepsOf(const rung_step* steps, uint32_t count) { return {steps, count}; }
 
-// "" or what differs.
+// The difference between two lists of steps, or "".
 std::string differentSteps(const rung_program& a, std::span<const rung_step> stepsA, const rung_program& b,
                            std::span<const rung_step> stepsB) {
   const auto same = [&](const rung_step& x, const rung_step& y) {
@@ -30,7 +30,8 @@ std::string differentSteps(const rung_program& a, std::span<const rung_step> ste
   return std::ranges::equal(stepsA, stepsB, same) ? "" : "the schedule of the new program is another one";
 }
 
-// Whether a scan of the schedule ends all runs that it begins: the shadow begins with a scan, and its runs with it.
+// Whether a scan of the schedule ends all runs that it begins: the shadow begins with a scan, so its runs must begin
+// there, too.
 bool hasWholeRuns(const rung_program& program, std::span<const rung_step> steps) {
   std::vector<uint64_t> parts(program.task_count);
   for (const rung_step& step : steps)
@@ -85,8 +86,8 @@ std::string Shadow::compareSchedules() const {
   return differentSteps(live_, stepsOf(live_.slices, live_.slice_count), next, stepsOf(next.slices, next.slice_count));
 }
 
-// Names that both programs have, in the spaces of outputs, and bits of these that no name covers. A dialect that marks
-// no space as that of outputs: all names.
+// Finds the names of both programs in the spaces of outputs, and bits of these spaces without a name. If the dialect
+// marks no space as output, all names count.
 void Shadow::findOutputs() {
   const rung_program& next = *next_.program;
   const std::span<const rung_space> spaces(next.spaces, next.space_count);
@@ -118,7 +119,8 @@ void Shadow::findOutputs() {
   indexOutputs();
 }
 
-// What the transfer of state brings into the new program's block as a whole is compared there.
+// Finds the outputs that the transfer of state copies completely to the new program's block, where they are compared
+// together.
 void Shadow::indexOutputs() {
   const rung_program& next = *next_.program;
   const core::Memory memory(next, nullptr);
@@ -144,7 +146,7 @@ void Shadow::indexOutputs() {
   std::ranges::sort(outputBytes_, {}, &OutputByte::offset);
 }
 
-// ---- the thread that scans ------------------------------------------------------------------------------------------
+// ---- the scan thread ---------------------------------------------------------------------------------------------
 
 ReplaceResult Shadow::begin(Instance& live) noexcept {
   if (&live.program() != &live_ || recording_ != ShadowState::Prepared) return ReplaceResult::OtherProgram;
@@ -228,7 +230,7 @@ void Shadow::ended(const Instance& live, uint32_t) {
   ring_.push();
 }
 
-// ---- the other ------------------------------------------------------------------------------------------------------
+// ---- the other thread --------------------------------------------------------------------------------------------
 
 bool Shadow::work() {
   if (runner_.faulted()) return false;
@@ -253,7 +255,7 @@ bool Shadow::work() {
   return true;
 }
 
-// What others have written between the end of the last run and the beginning of this one.
+// Applies changes by other writers between the end of the last run and the beginning of this one.
 void Shadow::takeChanges(const Record& record) {
   transfer_.run(record.before.data(), present_.data());
   uint8_t* block = next_.block.get();
@@ -265,7 +267,7 @@ void Shadow::takeChanges(const Record& record) {
     known_[record.answers[i].ticket % core::ServiceQueue::kRecords] = record.answers[i];
 }
 
-// `values`: of the running program, as the new program's.
+// Forces the bits to the running program's `values`, laid out as the new program's block.
 void Shadow::holdForced(const Record& record, const std::vector<uint8_t>& values) {
   if (!record.hasForced) return;
   std::ranges::fill(forced_, uint8_t{0});
@@ -286,7 +288,7 @@ void Shadow::runTask(Record& record) {
   running_ = nullptr;
 }
 
-// What the running program has left is in `former_`, as the new program has it.
+// Compares with the running program's memory after its run, which is in `former_` in the new program's layout.
 void Shadow::compare(const Record& record) {
   different_.clear();
   const uint8_t* block = next_.block.get();
@@ -309,7 +311,7 @@ void Shadow::compare(const Record& record) {
 }
 
 void Shadow::compareOutput(const Record& record, const Output& output) {
-  // Memory looks at blocks that it does not change here.
+  // The blocks are only read here.
   const uint64_t live = readRaw(core::Memory(live_, const_cast<uint8_t*>(record.after.data())), output.live);
   const uint64_t next = readRaw(core::Memory(*next_.program, next_.block.get()), output.next);
   if (live == next) return;
@@ -352,7 +354,7 @@ std::vector<ShadowDifference> Shadow::differences() const {
   return all;
 }
 
-// ---- what the new program asks -----------------------------------------------------------------------------------
+// ---- requests of the new program ---------------------------------------------------------------------------------
 
 const core::ServiceRecord* Shadow::recordOf(uint32_t ticket) const {
   const core::ServiceRecord& record = known_[ticket % core::ServiceQueue::kRecords];
@@ -389,7 +391,7 @@ int64_t Shadow::serviceResult(rung_ctx* ctx, uint32_t ticket, uint32_t index) {
   return record != nullptr && index < record->resultCount ? record->results[index] : 0;
 }
 
-// Fast where all is equal (one memcmp), explicit where it is not.
+// Comparison of instances: fast if all is equal (one memcmp), detailed if not.
 
 namespace {
 
@@ -399,7 +401,7 @@ std::string values(uint64_t here, uint64_t there) {
   return ": " + std::to_string(here) + " here, " + std::to_string(there) + " there";
 }
 
-// Names the byte, or its bit when only one differs.
+// Names the byte, or the bit if only one differs.
 std::string byteDifference(const rung_program& program, LogicalByte at, uint8_t here, uint8_t there,
                            DescribePlace describe) {
   const uint32_t changed = here ^ there;
@@ -420,7 +422,7 @@ Difference rawDifference(const Instance& here, const Instance& there, DescribePl
     const uint8_t valueThere = there.memory().readByte(at->space, at->byte);
     if (valueHere != valueThere) return byteDifference(here.program(), *at, valueHere, valueThere, describe);
   }
-  // A slot of the compiler, or equal as bits and yet not equal: an expanded bit holds more than 0 or 1.
+  // The byte belongs to a slot of the compiler, or to an expanded bit that is neither 0 nor 1.
   return "memory at offset " + std::to_string(offset) + values(a[offset], b[offset]);
 }
 
@@ -439,7 +441,7 @@ Difference logicalDifference(const Instance& here, const Instance& there, Descri
   return std::nullopt;
 }
 
-// Compilers may put rungs in another order.
+// Rungs are compared by key, because compilers may order them differently.
 uint64_t rungKey(const Instance& instance, uint32_t rung) {
   return rung < instance.program().rung_count ? instance.program().rungs[rung].key : 0;
 }

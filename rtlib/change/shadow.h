@@ -1,5 +1,5 @@
 // Compares two instances of one program that different engines run: memory, clock, fault, waiting messages, service
-// requests and tickets. Profile counters do not count.
+// requests and tickets. Profile counters are not compared.
 #pragma once
 #include <array>
 #include <atomic>
@@ -19,45 +19,45 @@
 
 namespace rung::runtime {
 
-// Describes a bit, or the byte in which an integer of 8 bits lies, as a user would write it.
+// Returns the name of a bit or of an 8-bit integer as a user would write it.
 using DescribePlace = std::string (*)(const rung_program& program, const Ref& place);
 
-// The first difference, with its place described ("D10 (COUNT): 3 here, 4 there"); nothing if there is none. If the
-// layouts differ, only the spaces are compared, not the compiler's own slots.
+// The first difference, with its place described ("D10 (COUNT): 3 here, 4 there"); nothing if the instances agree. If
+// the layouts differ, only the spaces are compared, not the compiler's own slots.
 std::optional<std::string> firstDifference(const Instance& here, const Instance& there, DescribePlace describe);
 
 // A shadow: a program that is to take over runs beside the running one, on the same inputs and answers, and differences
 // of its outputs are reported before anything is replaced.
 //
 // The scan thread records every run of a task: the memory before and after it, the requests that the program made to
-// its host, and the answers that came. Another thread runs the new program on these records. Recording copies the
-// memory block twice per run and never waits: if the other thread is late by more runs than there is room for, the
+// its host, and the answers that it received. Another thread runs the new program on these records. Recording copies
+// the memory block twice per run and never waits: if the other thread is late by more runs than there is room for, the
 // shadow ends.
 //
 // A shadow has no effect outside: its memory is its own, and its messages and requests go nowhere. A request that the
 // running program also made, in the same run, gets the same answers; any other request stays unanswered, and is
 // reported.
 //
-// What the machine, the NC and the host have written appears as a change of memory between two runs; the shadow gets it
+// Values written by the machine, the NC and the host appear as changes of memory between two runs; the shadow gets them
 // at the same point in time, by name and address as in a replacement. So the schedules must be equal. Forced cells of
 // the running program have their values in the shadow, too, before and after each run.
 
 enum class ShadowState : uint8_t {
   Prepared, // not begun
   Running,
-  Finished, // all scans have run
-  TooSlow,  // there was no room for a run
+  Finished, // it has run the requested number of scans
+  TooSlow,  // a run found no room for its record
   Stopped,  // the running program was stopped by a fault, was replaced, or its host ended the shadow
   Faulted,  // the new program has stopped with a fault
 };
 
 struct ShadowDifference {
-  std::string name; // of the output; of a request that the new program alone makes: the service
+  std::string name; // of the output; for a request that only the new program makes, of the service
   bool service = false;
-  int64_t firstUs = 0; // the program's clock when it was seen first
-  uint64_t runs = 0;   // runs of tasks after which it was seen
+  int64_t firstUs = 0; // the program's clock at the first occurrence
+  uint64_t runs = 0;   // runs of tasks after which it occurred
   Ref ref;             // in the new program
-  uint64_t live = 0;   // the values that were seen first: bits, as readRaw gives them
+  uint64_t live = 0;   // the values at the first occurrence, as readRaw returns them
   uint64_t next = 0;
 };
 
@@ -67,7 +67,7 @@ public:
   // has room for the records of `room` runs of tasks.
   Shadow(const rung_program& live, const Runnable& next, DescribePlace describe, uint32_t scans, uint32_t room);
 
-  // Why the two cannot run side by side; "" when they can.
+  // Why the two cannot run side by side; "" if they can.
   const std::string& problem() const { return problem_; }
   // The transfer that gives the new program its initial state.
   const StateTransfer& transfer() const { return transfer_; }
@@ -96,7 +96,7 @@ public:
   std::vector<ShadowDifference> differences() const;
 
 private:
-  static constexpr uint32_t kMostRequests = 32; // that one run makes
+  static constexpr uint32_t kMostRequests = 32; // requests that one run may make
   struct Request {
     core::ServiceRequest request;
     bool taken = false; // by the new program
@@ -105,16 +105,16 @@ private:
     uint32_t task = 0;
     int64_t nowUs = 0;
     std::vector<uint8_t> before, after; // memory blocks of the running program
-    std::vector<uint8_t> forced;        // bits of it that a person holds; all 0 where `hasForced` is false
+    std::vector<uint8_t> forced;        // mask of its forced bits; all 0 if `hasForced` is false
     bool hasForced = false;
     std::array<Request, kMostRequests> requests;
     uint32_t requestCount = 0;
-    uint32_t refused = 0;                                                     // requests, beside those
-    std::array<core::ServiceRecord, core::ServiceQueue::kMaxPending> answers; // that came before the run
+    uint32_t refused = 0;                                                     // requests that the queue refused
+    std::array<core::ServiceRecord, core::ServiceQueue::kMaxPending> answers; // received before the run
     uint32_t answerCount = 0;
-    std::array<core::ServiceRecord, kMostRequests> atOnce; // of the requests, after the run
+    std::array<core::ServiceRecord, kMostRequests> atOnce; // answers to `requests`, after the run
   };
-  // A cell of both programs; without a name it is a byte, whose bits are compared one by one.
+  // An output cell of both programs; without a name it is a byte, whose bits are compared one by one.
   struct Output {
     Ref live, next;
     std::string name;
@@ -151,27 +151,27 @@ private:
   DescribePlace describe_;
   int64_t lengthUs_;
   std::string problem_;
-  std::vector<uint32_t> tasks_;    // of the new program, by those of the running one
-  std::vector<bool> inParts_;      // by those of the running one
-  std::vector<uint32_t> services_; // of the running program, by those of the new one
+  std::vector<uint32_t> tasks_;    // tasks of the new program, by task of the running one
+  std::vector<bool> inParts_;      // by task of the running one
+  std::vector<uint32_t> services_; // services of the running program, by service of the new one
   std::vector<Output> outputs_;
   // Most outputs of the running program are compared all at once, at their places in the new program's block.
-  std::vector<uint64_t> mask_;          // of that block: bytes of such outputs
-  std::vector<OutputByte> outputBytes_; // of these, ascending
+  std::vector<uint64_t> mask_;          // by bytes of that block: those of such outputs
+  std::vector<OutputByte> outputBytes_; // of these outputs, ascending
   std::vector<uint32_t> others_;        // outputs that are compared one by one
-  std::vector<uint32_t> different_;     // of a run
+  std::vector<uint32_t> different_;     // outputs that differ after a run
 
   // ---- both threads ----
   std::atomic<ShadowState> recording_{ShadowState::Prepared};
   std::vector<Record> records_;
-  core::SlotRing ring_;                                                 // of `records_`
-  Record start_;                                                        // `before`: where it began; its answers: all
-  std::array<core::ServiceRecord, core::ServiceQueue::kRecords> known_; // what the new program knows of tickets
+  core::SlotRing ring_;                                                 // slots of `records_`
+  Record start_;                                                        // memory (`before`) and answers at the start
+  std::array<core::ServiceRecord, core::ServiceQueue::kRecords> known_; // tickets as the new program sees them
 
   // ---- scan thread ----
   Record* current_ = nullptr;
   int64_t endUs_ = 0;
-  std::array<uint32_t, core::ServiceQueue::kMaxPending> open_{}; // tickets that are not answered
+  std::array<uint32_t, core::ServiceQueue::kMaxPending> open_{}; // unanswered tickets
   uint32_t openCount_ = 0;
 
   // ---- the thread that calls `work` ----
@@ -179,10 +179,10 @@ private:
   rung_ctx ctx_{};
   core::Runner runner_;
   bool begun_ = false;
-  bool asksAlone_ = false; // has made a request that the running program has not made
+  bool asksAlone_ = false; // it has made a request that the running program has not made
   Record* running_ = nullptr;
-  std::vector<uint8_t> former_, present_; // the running program's memory, as the new program's
-  std::vector<uint8_t> forced_;           // the same of the bits that are forced
+  std::vector<uint8_t> former_, present_; // the running program's memory, laid out as the new program's
+  std::vector<uint8_t> forced_;           // the forced bits, laid out likewise
   uint64_t runs_ = 0;
   std::map<std::string, ShadowDifference> differences_;
 };

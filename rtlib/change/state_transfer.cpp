@@ -9,8 +9,8 @@
 
 namespace rung::runtime {
 
-// A mechanism that does not wait is at its beginning, which every program has; one that is gone and does not wait is
-// not a loss either.
+// A mechanism that does not wait is at its beginning, which every program has; if it was removed, nothing is lost,
+// either.
 const char* StateTransfer::waiting(const uint8_t* from) const noexcept {
   for (const Points& points : points_) {
     uint32_t number;
@@ -65,7 +65,7 @@ std::vector<bool> StateTransfer::written(uint32_t bytes) const {
   return written;
 }
 
-// A later move of the same bytes counts.
+// If several moves write the same bytes, the last one counts.
 std::vector<bool> StateTransfer::staying(uint32_t bytes) const {
   std::vector<bool> staying(bytes);
   const auto mark = [&](uint32_t first, uint64_t count, bool stays) {

@@ -1,7 +1,8 @@
 // Transfers the state of a running program to another program of its dialect that replaces it. Cells of spaces keep
-// their contents by address; a cell with a name keeps them at the new place of its name; what the compiler made for an
-// instruction (edges, times) follows its rung (rung_alignment.h). What only the new program has starts with its initial
-// contents. So does everything without a name in a space whose addresses the compiler assigns (RUNG_SPACE_ALLOCATED).
+// their contents by address; a cell with a name keeps them at the new place of its name; state that the compiler made
+// for an instruction (edges, times) follows its rung (rung_alignment.h). Cells that only the new program has start with
+// their initial contents. So does everything without a name in a space whose addresses the compiler assigns
+// (RUNG_SPACE_ALLOCATED).
 //
 // The plan is made outside real time and reports what it will do. Running it only copies bytes, in time proportional to
 // the bytes of state.
@@ -12,13 +13,13 @@
 // or one of the same extent that is gone (it was renamed), it keeps the contents.
 //
 // An output that the old program wrote and the new one does not write starts anew, because no code would ever switch it
-// off. Outputs are the spaces that only the program writes for the machine or the NC, and what a fault clears.
+// off. Outputs are the spaces that only the program writes for the machine or the NC, and the safe-state spans.
 //
-// State with a key that begins with @ is shared by all instructions, and held by one at a time: by the one whose own
-// slot, whose key ends with that key, is not 0. When that instruction is gone, the state is free again.
+// State whose key begins with @ is shared by all instructions, and held by one at a time: the instruction whose own
+// slot, whose key ends with that key, is not 0. When that instruction is removed, the state is free again.
 //
-// A mechanism continues at the same instruction. While it waits at one that the new program does not have, the new
-// program cannot take over.
+// A mechanism continues at the same instruction. While it waits at an instruction that the new program does not have,
+// the new program cannot take over.
 #pragma once
 #include <cstdint>
 #include <span>
@@ -35,11 +36,11 @@ namespace rung::runtime {
 enum class ChangeKind : uint8_t {
   New,      // starts with its initial contents
   Removed,  // its contents are lost
-  Moved,    // a cell that is elsewhere now: keeps its contents; of an array or text that is shorter now, those that fit
-  Renamed,  // a cell that had another name: keeps its contents
-  Retyped,  // of another type now: its contents are lost, it starts with its initial contents
+  Moved,    // a cell at another place: keeps its contents; a shortened array or text keeps what fits
+  Renamed,  // a cell with a new name: keeps its contents
+  Retyped,  // a cell of another type: starts with its initial contents
   Released, // an output that the old program wrote and the new one does not: starts with its initial contents
-  Cut,      // a cell that is elsewhere now, with less room there: what instructions reached beyond it is lost
+  Cut,      // a cell at another place with less room: bytes that instructions reached past it are lost
 };
 
 inline constexpr std::string_view kChangeKinds[] = {"new", "removed", "moved", "renamed", "retyped", "released", "cut"};
@@ -47,15 +48,15 @@ inline constexpr std::string_view kChangeKinds[] = {"new", "removed", "moved", "
 struct StateChange {
   ChangeKind kind = ChangeKind::New;
   bool slot = false;      // made by the compiler; else a cell with a name
-  std::string name;       // in the new program; of what is removed, in the old one
+  std::string name;       // in the new program; if it was removed, in the old one
   std::string formerName; // Renamed
 };
 
 // A rung, as drawn, that differs between the two programs.
 struct RungChange {
-  RungKind kind = RungKind::Changed; // of one that both have
-  uint32_t before = RUNG_NONE;       // in the former program's table; RUNG_NONE: it is new
-  uint32_t after = RUNG_NONE;        // in the new one's; RUNG_NONE: it was removed
+  RungKind kind = RungKind::Changed; // of a rung that both have
+  uint32_t before = RUNG_NONE;       // index in the former program's table; RUNG_NONE: it is new
+  uint32_t after = RUNG_NONE;        // index in the new program's table; RUNG_NONE: it was removed
 };
 
 // Names a place that has no name of its own, as users of the program's dialect would.
@@ -71,15 +72,15 @@ public:
 
   const rung_program& from() const { return *from_; }
 
-  // The changes: cells sorted by name, then slots. What keeps its contents and its place is left out.
+  // The changes: cells sorted by name, then slots. State that keeps both contents and place is left out.
   std::span<const StateChange> changes() const { return changes_; }
   // The changed rungs in the order of the new program, then the removed ones.
   std::span<const RungChange> rungs() const { return rungs_; }
-  uint32_t keptCells() const { return keptCells_; } // names that stay where they are
+  uint32_t keptCells() const { return keptCells_; } // names that keep their place
   uint32_t keptSlots() const { return keptSlots_; }
 
-  // The key of a mechanism of the old program that waits at an instruction which the new one does not have; null: there
-  // is none.
+  // The key of a mechanism of the old program that waits at an instruction which the new one does not have; null if
+  // there is none. Allocates nothing.
   const char* waiting(const uint8_t* from) const noexcept;
   // Copies from the memory block of the old program to that of the new one, which holds its initial contents. Between
   // two scans, while no request waits. Allocates nothing.
@@ -87,13 +88,13 @@ public:
   // The number of bytes that `run` writes.
   uint64_t bytes() const { return bytes_; }
 
-  // Which of the first `bytes` of the new program's block `run` writes as a whole.
+  // For each of the first `bytes` bytes of the new program's block, whether `run` writes all of it.
   std::vector<bool> written(uint32_t bytes) const;
-  // Which of the first `bytes` of a block keep their contents at their place.
+  // For each of the first `bytes` bytes of a block, whether it keeps its contents at its place.
   std::vector<bool> staying(uint32_t bytes) const;
   // This transfer without the bytes that stay: for two programs that share one block.
   StateTransfer without(const std::vector<bool>& staying) const;
-  // The longest spans, within `count` bytes from `first`, of bytes that do not stay.
+  // The maximal spans of bytes that do not stay, within `count` bytes from `first`.
   static std::vector<rung_span> leaving(const std::vector<bool>& staying, uint32_t first, uint32_t count);
 
 private:
@@ -125,11 +126,11 @@ private:
     uint32_t count = 0;
   };
 
-  // An instruction that is gone, and the shared state that it may have held.
+  // A removed instruction, and the shared state that it may have held.
   struct Holder {
     uint32_t slot = 0; // in the former program's memory block
     uint32_t slotBytes = 0;
-    uint32_t held = 0; // in the new one's
+    uint32_t held = 0; // in the new program's
     uint32_t heldBytes = 0;
   };
 
@@ -138,7 +139,7 @@ private:
   const rung_program* from_;
   std::vector<Holder> holders_;
   std::vector<Points> points_;
-  std::vector<uint32_t> numbers_; // of points in the new program; RUNG_NONE: it has none like it
+  std::vector<uint32_t> numbers_; // continuation points of the new program; RUNG_NONE: it has no such point
   std::vector<Move> moves_;
   std::vector<StateChange> changes_;
   std::vector<RungChange> rungs_;

@@ -1,4 +1,4 @@
-// The plan: from two programs' tables to a list of copies (see state_transfer.h).
+// Makes the plan: a list of copies from the tables of two programs (see state_transfer.h).
 #include "rtlib/change/state_transfer.h"
 
 #include <algorithm>
@@ -20,10 +20,10 @@ namespace {
 
 constexpr uint32_t kInitial = RUNG_NONE; // a bit starts with its initial contents
 
-// Of its own.
+// Whether the symbol has a place of its own.
 bool hasPlace(const rung_symbol& symbol) { return (symbol.flags & (RUNG_SYMBOL_CONST | RUNG_SYMBOL_AREA)) == 0; }
 
-// Bits of all spaces of a program, numbered one after the other.
+// Numbers all bits of all spaces of a program consecutively.
 class BitNumbers {
 public:
   explicit BitNumbers(const rung_program& program) : memory_(program, nullptr) {
@@ -37,7 +37,7 @@ public:
   uint32_t count() const { return count_; }
   uint32_t first(uint32_t space) const { return first_[space]; }
   uint32_t first(const rung_symbol& symbol) const { return first_[symbol.space] + 8 * symbol.byte + symbol.bit; }
-  // Where a bit lies in the memory block: the byte that holds it, the bit in it, and whether it is a byte of its own.
+  // The place of a bit in the memory block: its byte, the bit in the byte, and whether it occupies the byte alone.
   struct Location {
     uint32_t offset;
     uint8_t bit;
@@ -55,7 +55,7 @@ public:
   }
 
 private:
-  core::Memory memory_; // where ranges lie; no block
+  core::Memory memory_; // for its ranges; it has no block
   std::vector<uint32_t> first_;
   uint32_t count_ = 0;
 };
@@ -67,7 +67,7 @@ void mark(Marks& marks, uint32_t offset, uint32_t size, uint32_t bits = 255) {
   for (uint32_t i = offset; i < offset + size; ++i) marks[i] = static_cast<uint8_t>(marks[i] | bits);
 }
 
-// What its chunks may write, and where that is copied to.
+// The bits that chunks may write, and those to which they are copied.
 Marks writtenBits(const rung_program& program) {
   Marks written(program.memory_size);
   for (uint32_t i = 0; i < program.write_count; ++i)
@@ -78,7 +78,7 @@ Marks writtenBits(const rung_program& program) {
   return written;
 }
 
-// Outputs, and what is copied to them.
+// Outputs, and the bits that are copied to them.
 Marks outputBits(const rung_program& program) {
   Marks outputs(program.memory_size);
   constexpr uint32_t kBoth = RUNG_SPACE_INPUT | RUNG_SPACE_OUTPUT;
@@ -132,14 +132,14 @@ private:
 
   using Cell = std::tuple<uint32_t, uint32_t, uint32_t, uint32_t, uint32_t>; // space, byte, bit, type, count
 
-  // A name of the new program, and what it was in the old one; null: it is new.
+  // A name of the new program, and the corresponding name of the old one; null: it is new.
   struct Match {
     const rung_symbol* symbol;
     const rung_symbol* former;
   };
 
   static uint32_t extent(const rung_symbol& symbol) { return elementBits(symbol.type) * symbol.count; }
-  // Bits that instructions reach through the name, in its space.
+  // The number of bits that instructions access by the name, within its space.
   static uint32_t reach(const rung_program& program, const rung_symbol& symbol) {
     if (symbol.type == RUNG_TYPE_BIT) return extent(symbol);
     const uint64_t room = 8 * (uint64_t{program.spaces[symbol.space].byte_count} - symbol.byte);
@@ -179,7 +179,7 @@ private:
     }
   }
 
-  // What instructions keep in names of their own goes where their rungs go, not by these names.
+  // State that instructions keep in hidden names follows their rungs, not these names.
   void matchHidden() {
     std::vector<const rung_symbol*> former, now;
     const std::vector<InstructionState> before = hiddenOf(from_, former);
@@ -209,14 +209,14 @@ private:
     const auto hidden = hiddenFormer_.find(&symbol);
     return hidden != hiddenFormer_.end() ? hidden->second : findSymbol(from_, symbol.name);
   }
-  // The new program has it, too.
+  // Whether the new program has the name, too.
   bool isThere(const rung_symbol& former) const {
     if (const auto hidden = hiddenThere_.find(&former); hidden != hiddenThere_.end()) return hidden->second;
     const rung_symbol* symbol = findSymbol(to_, former.name);
     return symbol != nullptr && hasPlace(*symbol);
   }
 
-  // Names that the new program does not have; its addresses, where it has the space.
+  // Finds the names that the new program does not have, and their addresses in it if it has the space.
   void findGone() {
     named_.assign(old_.count(), false);
     for (uint32_t i = 0; i < from_.symbol_count; ++i) {
@@ -228,7 +228,7 @@ private:
     }
   }
 
-  // The former places of names that are elsewhere now, or of another type, start anew.
+  // The former places of names that have moved or changed their type start anew.
   void vacate() {
     for (const Match& match : matches_) {
       if (match.former == nullptr || sameCell(*match.former, *match.symbol)) continue;
@@ -241,8 +241,8 @@ private:
   }
 
   static bool isAllocated(const rung_space& space) { return (space.flags & RUNG_SPACE_ALLOCATED) != 0; }
-  // The machine or the NC writes this cell, in this space of the new program. Where the program writes the space too,
-  // the input is what a task copies over it.
+  // Whether the machine or the NC writes this cell, in this space of the new program. If the program writes the space,
+  // too, the inputs are the cells that a task copies over.
   bool isInput(uint32_t space, const rung_symbol& cell) const {
     const uint32_t flags = to_.spaces[space].flags;
     if ((flags & RUNG_SPACE_INPUT) == 0) return false;
@@ -267,9 +267,9 @@ private:
     report(keep(symbol, former) ? ChangeKind::Moved : ChangeKind::Cut, symbol);
   }
 
-  // Of an array as far as it fits; of a cell all that instructions of the old program reach through its name. What lies
-  // in the place of a name that has stayed belongs to that one: then nothing of a cell is taken along that begins
-  // there, else what does not lie there. False: some of a cell is lost.
+  // Moves the contents of a name: of an array as much as fits; of a cell all bytes that instructions of the old program
+  // access by its name. Bytes at the place of a name that has stayed belong to that name: if the cell begins there,
+  // nothing is moved, else only the bytes outside it. False: some bytes of a cell are lost.
   bool keep(const rung_symbol& symbol, const rung_symbol& former) {
     const bool wide = symbol.count == 1 && former.count == 1 && !isAllocated(to_.spaces[symbol.space]);
     const uint32_t wanted = wide ? reach(from_, former) : extent(former);
@@ -297,10 +297,10 @@ private:
       return;
     }
     const uint32_t first = new_.first(symbol);
-    bool named = false; // where other names were, some of which are elsewhere now
+    bool named = false; // other names were here, some of which have moved
     for (uint32_t b = first; b < first + extent(symbol); ++b)
       named = named || (!stays_[b] && (source_[b] == kInitial || named_[source_[b]]));
-    if (!named) return; // the cell had no name, or has another one as well
+    if (!named) return; // the cell had no name, or also has another one
     start(symbol);
     report(ChangeKind::New, symbol);
   }
@@ -328,7 +328,7 @@ private:
     return (marks[place.offset] >> place.bit & 1) != 0;
   }
 
-  // Takes the bit out, and those that are copied to or from it: one report is enough. False: it was not there.
+  // Removes the bit, and those that are copied to or from it, so that only one is reported. False: it was not marked.
   bool take(uint32_t bit, Marks& released) const {
     const BitNumbers::Location place = new_.locate(bit);
     if (!isMarked(released, place)) return false;
@@ -338,7 +338,7 @@ private:
     return true;
   }
 
-  // A bit goes by its narrowest name.
+  // Reports each bit by its narrowest name.
   void reportNamed(Marks& released) {
     std::vector<const rung_symbol*> symbols;
     for (const Match& match : matches_)
@@ -351,7 +351,7 @@ private:
     }
   }
 
-  // What an address counts as a whole, or bits of it.
+  // Reports cells without a name: all bits of an address together, or single bits.
   void reportUnnamed(uint32_t space, Marks& released) {
     const uint32_t unit = to_.spaces[space].unit_bytes;
     for (uint32_t byte = 0; byte + unit <= to_.spaces[space].byte_count; byte += unit) {
@@ -373,7 +373,7 @@ private:
 
   // ---- the moves ---------------------------------------------------------------------------------------------------
 
-  // As few as possible: bytes that keep together are one.
+  // Makes as few moves as possible: adjacent bytes that stay adjacent are one move.
   void addMoves() {
     for (uint32_t number = 0; number < new_.count(); number += 8) {
       if (!addByte(number))
@@ -405,7 +405,7 @@ private:
 
   void addCopy(uint32_t from, uint32_t to, uint32_t bytes) { add({.from = from, .to = to, .count = bytes}); }
 
-  // Adds it to the last one where it continues that.
+  // Adds the move, or extends the last one if it continues that.
   void add(const StateTransfer::Move& move) {
     if (!plan_.moves_.empty() && move.kind != MoveKind::Bit) {
       StateTransfer::Move& last = plan_.moves_.back();
@@ -451,7 +451,7 @@ private:
     return states;
   }
 
-  // Each as drawn counts once, by its first piece.
+  // Each rung as drawn counts once, by its first part.
   void findRungs() {
     std::vector<bool> isThere(from_.rung_count, false);
     for (const RungPair& pair : rungs_) isThere[pair.before] = true;
@@ -485,7 +485,7 @@ private:
         {.slot = former.offset, .slotBytes = bytesOf(former), .held = held->offset, .heldBytes = bytesOf(*held)});
   }
 
-  // The cells are moved as slots and cells with a name are; then their numbers are replaced.
+  // The cells of continuations are moved like slots and named cells; then their numbers are replaced.
   void addContinuations() {
     for (uint32_t i = 0; i < from_.continuation_count; ++i) {
       const rung_continuation& former = from_.continuations[i];
@@ -522,17 +522,17 @@ private:
   BitNumbers old_;
   BitNumbers new_;
   Overwritten overwritten_;          // in the new program
-  std::vector<uint32_t> sameSpaces_; // by space of the old program: that of the new one with its name; or RUNG_NONE
+  std::vector<uint32_t> sameSpaces_; // by space of the old program: the new one's space of this name, or RUNG_NONE
   std::vector<uint32_t> source_;     // by bit of the new program: the bit of the old one, or kInitial
   std::vector<bool> stays_;          // by bit of the new program: it has a name that has stayed
-  std::vector<bool> isNamed_;        // by bit of the new program: a name's cell has it
+  std::vector<bool> isNamed_;        // by bit of the new program: it belongs to a name's cell
   std::vector<bool> named_;          // by bit of the old program: it had a name
   std::vector<Match> matches_;
   std::multimap<Cell, std::string> gone_; // names that the new program does not have, by their cell in it
   std::vector<RungPair> rungs_;
   std::map<const rung_symbol*, const rung_symbol*> hiddenFormer_; // by symbol of the new program; null: it is new
   std::map<const rung_symbol*, bool> hiddenThere_;                // by symbol of the old one: the new one has it
-  std::map<std::string_view, std::string_view> newKeys_;          // of instructions' state, by the old ones
+  std::map<std::string_view, std::string_view> newKeys_;          // new keys of instructions' state, by old key
 };
 
 StateTransfer::StateTransfer(const rung_program& from, const rung_program& to, PlaceName nameOf) : from_(&from) {

@@ -1,5 +1,5 @@
-// The floating-point settings that programs are compiled for: round to nearest, subnormals kept, no traps. They belong
-// to a thread, and a host that was built with -ffast-math starts with others.
+// The floating-point settings that programs are compiled for: round to nearest, subnormals kept, no traps. Each thread
+// has its own, and a host built with -ffast-math starts with different ones.
 #pragma once
 #include <cstdint>
 
@@ -7,7 +7,7 @@ namespace rung::core {
 
 #if defined(__x86_64__) || defined(__SSE2__)
 inline constexpr uint32_t kDefaultFloatControl = 0x1F80;
-inline constexpr uint32_t kFloatStatus = 0x3F; // what has happened: no setting
+inline constexpr uint32_t kFloatStatus = 0x3F; // exception flags, not settings
 inline uint32_t floatControl() noexcept { return __builtin_ia32_stmxcsr(); }
 inline void setFloatControl(uint32_t control) noexcept { __builtin_ia32_ldmxcsr(control); }
 #elif defined(__aarch64__)
@@ -21,7 +21,7 @@ inline uint32_t floatControl() noexcept {
 inline void setFloatControl(uint32_t control) noexcept { asm volatile("msr fpcr, %0" : : "r"(uint64_t{control})); }
 #elif defined(__arm__) && defined(__ARM_FP)
 inline constexpr uint32_t kDefaultFloatControl = 0;
-inline constexpr uint32_t kFloatStatus = 0xF800009F; // flags of comparisons, and what has happened
+inline constexpr uint32_t kFloatStatus = 0xF800009F; // condition and exception flags, not settings
 inline uint32_t floatControl() noexcept {
   uint32_t control;
   asm volatile("vmrs %0, fpscr" : "=r"(control));
@@ -41,8 +41,8 @@ inline void setFloatControl(uint32_t control) noexcept { asm volatile("fsrm %0" 
 #error "how are the floating-point settings of this processor read?"
 #endif
 
-// The default settings are in force while it exists, and the thread's own again afterwards. One inside of another does
-// nothing: `inForce` says so, and begins as false.
+// Sets the default settings for the calling thread while it exists, and restores the thread's own afterwards. A nested
+// object does nothing: `inForce`, initially false, is true while an outer one exists.
 class FloatEnvironment {
 public:
   explicit FloatEnvironment(bool& inForce) noexcept : inForce_(inForce), outermost_(!inForce) {

@@ -1,18 +1,18 @@
-// All ways in which one thread hands something to another, at least one of the two being the thread that scans: no side
-// locks, allocates (but in a constructor) or makes a system call, and the scan thread never waits. Which to take:
+// All ways in which one thread passes data to another, of which at least one is the scan thread. Neither side locks,
+// allocates (except in a constructor) or makes a system call, and the scan thread never waits. The choice:
 //
 //   Ring, FixedRing  every element, in order                              one writer, one reader
-//   SlotRing         the same, of records that are used where they lie    one writer, one reader
+//   SlotRing         the same, for records that are used in place        one writer, one reader
 //   Newest           the newest value, whole, and whether it is new       one writer, one reader
 //   Published        the newest value, whole                              one writer, any readers
 //   PublishedText    the same of a text                                   one writer, any readers
-//   Slot             one command to the scan thread, and its result       one that asks at a time, the scan thread
+//   Slot             one command to the scan thread, and its result       one poster at a time, the scan thread
 //   ScanUse          the end of an object that the scan thread may use    one that ends it, the scan thread
 //   GuardedMemory    memory of a host, whose writer counts its changes    the host, the scan thread
 //
 // Bounds: each call takes as long as copying its value. Published::read tries three times, GuardedMemory::copy as often
-// as its caller says. Slot::withdraw and ScanUse::wait, which are not for the scan thread, wait for the one command
-// that the scan thread executes, and for one use by it; there alone `yield` is called.
+// as its caller specifies. Slot::withdraw and ScanUse::wait, which the scan thread must not call, wait for the one
+// command that the scan thread executes, and for one use by it; only they call `yield`.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -32,12 +32,12 @@ namespace rung::core {
 
 // ---- every element -----------------------------------------------------------------------------------------------
 
-// A bounded queue. What does not fit is refused and counted. Indices run freely and wrap; the capacity is a power of
-// two.
+// A bounded queue. An element that does not fit is refused and counted. Indices are free-running and wrap; the capacity
+// is a power of two.
 //
-// Either side may drop what the ring holds. The consumer pops it. The producer cannot, for the consumer may be reading
-// an element just then: it marks all elements so far as dropped, and the consumer passes over them the next time it
-// looks. Until then they keep their room.
+// Either side may drop the elements of the ring. The consumer pops them. The producer cannot, because the consumer may
+// be reading an element at that moment: it marks all elements so far as dropped, and the consumer skips them at its
+// next access. Until then they occupy their slots.
 template <class T>
 class Ring {
   static_assert(std::is_trivially_copyable_v<T>);
@@ -52,7 +52,7 @@ public:
 
   uint32_t capacity() const noexcept { return mask_ + 1; }
 
-  // Producer. False: full, the element is lost and counted.
+  // Producer. False: the ring is full; the element is lost and counted.
   bool push(const T& item) noexcept {
     const uint32_t tail = tail_.load(std::memory_order_relaxed);
     const uint32_t head = head_.load(std::memory_order_acquire);
@@ -65,14 +65,14 @@ public:
     tail_.store(tail + 1, std::memory_order_release);
     return true;
   }
-  // Drops all elements so far, and counts those that are refused from 0 again. What the consumer is reading at this
-  // moment it may still get.
+  // Producer: drops all elements so far, and resets the count of refused elements. The consumer may still receive the
+  // element that it is reading at this moment.
   void drop() noexcept {
     dropped_.store(tail_.load(std::memory_order_relaxed), std::memory_order_release);
     lost_.store(0, std::memory_order_relaxed);
   }
 
-  // Consumer. The oldest element is number 0; null when there are not that many.
+  // Consumer. The oldest element is number 0; null if there are not that many.
   const T* peek(uint32_t number = 0) const noexcept {
     const uint32_t first = oldest();
     return tail_.load(std::memory_order_acquire) - first <= number ? nullptr : &storage_[(first + number) & mask_];
@@ -94,7 +94,8 @@ public:
   uint32_t lost() const noexcept { return lost_.load(std::memory_order_relaxed); }
 
 private:
-  // Indices wrap: `a` is at most the capacity away from `b`, for the producer keeps `dropped_` near `head_`.
+  // Whether index `a` is after `b`, though indices wrap: they differ by the capacity at most, because the producer
+  // keeps `dropped_` near `head_`.
   static bool isAfter(uint32_t a, uint32_t b) noexcept { return static_cast<int32_t>(a - b) > 0; }
   uint32_t oldest() const noexcept {
     const uint32_t dropped = dropped_.load(std::memory_order_acquire);
@@ -106,7 +107,7 @@ private:
   uint32_t mask_;
   alignas(64) std::atomic<uint32_t> head_{0}; // written by the consumer
   alignas(64) std::atomic<uint32_t> tail_{0}; // written by the producer
-  std::atomic<uint32_t> dropped_{0};          // elements before it count no more; written by the producer
+  std::atomic<uint32_t> dropped_{0};          // elements before it are dropped; written by the producer
   std::atomic<uint32_t> lost_{0};             // written by the producer
 };
 
@@ -124,12 +125,12 @@ public:
   FixedRing() noexcept : RingStorage<T, N>{}, Ring<T>(RingStorage<T, N>::items, N) {}
 };
 
-// The numbers of slots that their user keeps, filled and read in turn.
+// The indices of slots, which are filled and read in turn. The slots themselves belong to the user of the class.
 class SlotRing {
 public:
   explicit SlotRing(size_t slots) noexcept : slots_(slots) {}
 
-  // Producer: the slot to fill; none: all are full. It keeps this number until `push`.
+  // Producer: the index of the slot to fill; nothing if all are full. It is the same until `push`.
   std::optional<size_t> back() const noexcept {
     const uint64_t pushed = pushed_.load(std::memory_order_relaxed);
     if (pushed - popped_.load(std::memory_order_acquire) == slots_) return std::nullopt;
@@ -137,7 +138,7 @@ public:
   }
   void push() noexcept { pushed_.store(pushed_.load(std::memory_order_relaxed) + 1, std::memory_order_release); }
 
-  // Consumer: the oldest slot that is full; none: all are empty. It keeps this number until `pop`.
+  // Consumer: the index of the oldest full slot; nothing if all are empty. It is the same until `pop`.
   std::optional<size_t> front() const noexcept {
     const uint64_t popped = popped_.load(std::memory_order_relaxed);
     if (pushed_.load(std::memory_order_acquire) == popped) return std::nullopt;
@@ -145,7 +146,7 @@ public:
   }
   void pop() noexcept { popped_.store(popped_.load(std::memory_order_relaxed) + 1, std::memory_order_release); }
 
-  // Any thread; exact for both sides.
+  // Any thread; exact for the producer and the consumer.
   bool empty() const noexcept { return popped_.load() == pushed_.load(); }
 
 private:
@@ -155,18 +156,18 @@ private:
 
 // ---- the newest value --------------------------------------------------------------------------------------------
 
-// Values that the reader gets whole, the newest that is complete; what it does not fetch is replaced by the next one.
-// Three values: one belongs to the writer, one to the reader, and the third is what they exchange.
+// Gives the reader the newest complete value; a value that it does not fetch is replaced by the next one. There are
+// three buffers: one belongs to the writer, one to the reader, and they exchange the third.
 template <class T>
 class Newest {
 public:
   explicit Newest(const T& initial) : values_{initial, initial, initial} {}
 
-  // Writer: fills all of `back`, which has an older value, and publishes it.
+  // Writer: fills all of `back`, which holds an older value, and publishes it.
   T& back() noexcept { return values_[back_]; }
   void publish() noexcept { back_ = middle_.exchange(back_ | kNew, std::memory_order_acq_rel) & kIndex; }
 
-  // Reader: true where `front` is a newer value than before.
+  // Reader: true if `front` is now a newer value.
   bool take() noexcept {
     if (taken()) return false;
     front_ = middle_.exchange(front_, std::memory_order_acq_rel) & kIndex;
@@ -174,25 +175,25 @@ public:
   }
   const T& front() const noexcept { return values_[front_]; }
 
-  // Any thread: the reader has what was published last.
+  // Any thread: whether the reader has taken the last published value.
   bool taken() const noexcept { return (middle_.load(std::memory_order_acquire) & kNew) == 0; }
 
-  // Before or after both threads.
+  // All three buffers: before the threads start or after they have ended.
   std::array<T, 3>& values() noexcept { return values_; }
 
 private:
   static constexpr uint8_t kIndex = 3, kNew = 4;
 
   std::array<T, 3> values_;
-  std::atomic<uint8_t> middle_{2}; // an index, and whether it was published since it was last taken
-  uint8_t back_ = 0;               // of the writer
-  uint8_t front_ = 1;              // of the reader
+  std::atomic<uint8_t> middle_{2}; // the index of the third buffer, and kNew if its value has not been taken
+  uint8_t back_ = 0;               // the writer's index
+  uint8_t front_ = 1;              // the reader's index
 };
 
 enum class Looked : uint8_t { Found, Empty, Interrupted };
 
-// The newest value for any number of readers, as words. A reader that interrupts the writer, even for good, finds the
-// value before, whole; one that is itself interrupted while it reads tries again, a few times at most.
+// The newest value, as words, for any number of readers. A reader that interrupts the writer, for however long, finds
+// the complete previous value; a reader that is itself interrupted while it reads tries again, kTries times at most.
 class Published {
 public:
   explicit Published(size_t words) : words_(words) {
@@ -213,8 +214,7 @@ public:
 
   bool empty() const noexcept { return newest_.load(std::memory_order_acquire) == kNone; }
 
-  // Readers. `take` gets the number of each word and the word; what it has got means something where the result is
-  // Found.
+  // Readers. Calls take(index, word) for each word; the words are valid only if the result is Found.
   template <class Take>
   Looked read(Take take) const noexcept {
     for (int tries = 0; tries < kTries; ++tries) {
@@ -230,11 +230,11 @@ public:
   }
 
 private:
-  static constexpr uint64_t kNone = 0; // numbers are from 1
+  static constexpr uint64_t kNone = 0; // values are numbered from 1
   static constexpr uint32_t kCopies = 4;
   static constexpr int kTries = 3;
   struct Copy {
-    std::atomic<uint64_t> holds{kNone}; // the number of the value in it; none while it is written
+    std::atomic<uint64_t> holds{kNone}; // the number of the value in it; kNone while it is being written
     std::vector<std::atomic<uint64_t>> words;
   };
   size_t words_;
@@ -246,7 +246,7 @@ class PublishedText {
 public:
   static constexpr size_t kMost = 512;
 
-  // Writer. What does not fit is cut off.
+  // Writer. Characters beyond kMost are cut off.
   void set(std::string_view text) noexcept {
     std::array<uint64_t, kWords> words{};
     words[0] = std::min(text.size(), kMost);
@@ -254,8 +254,8 @@ public:
     published_.publish(words);
   }
 
-  // Readers. The number of characters that `to` now holds; 0 where none was set, or it was set again and again
-  // meanwhile.
+  // Readers. Returns the number of characters written to `to`; 0 if no text was set, or it was set again during every
+  // attempt.
   size_t read(std::span<char> to) const noexcept {
     std::array<uint64_t, kWords> words{};
     if (published_.read([&](size_t i, uint64_t word) { words[i] = word; }) != Looked::Found) return 0;
@@ -271,32 +271,33 @@ private:
 
 // ---- commands and ends -------------------------------------------------------------------------------------------
 
-// A command to the scan thread, with room for its result. Threads that ask do so one after the other: post, look
-// whether it is done, withdraw it or use it, release.
+// A command to the scan thread, with room for its result. One thread at a time posts a command, polls until it is done
+// or withdraws it, uses the result, and releases the slot.
 template <class Command>
 class Slot {
 public:
-  // A thread that asks.
+  // Posting thread. The slot must be free.
   void post(const Command& command) {
     assert(state_.load(std::memory_order_relaxed) == kFree);
     command_ = command;
     state_.store(kPosted, std::memory_order_release);
   }
   bool isDone() const noexcept { return state_.load(std::memory_order_acquire) == kDone; }
-  // True: it is not done, and will not be. False: it is done after all.
+  // Posting thread. True: the command was not executed, and will not be. False: it was executed.
   bool withdraw() noexcept {
     for (int expected = kPosted; !state_.compare_exchange_weak(expected, kFree, std::memory_order_acquire);
          expected = kPosted) {
       if (expected == kDone) return false;
-      std::this_thread::yield(); // taken: not for long
+      std::this_thread::yield(); // the scan thread is executing it, which takes a bounded time
     }
     return true;
   }
-  // Done or withdrawn: with its result, or that of the last try.
+  // Posting thread, once the command is done or withdrawn: the command with its result, or with that of the last
+  // attempt.
   const Command& command() const noexcept { return command_; }
   void release() noexcept { state_.store(kFree, std::memory_order_release); }
 
-  // The scan thread. `execute` gets the command; false: it is to be tried again.
+  // Scan thread. Calls execute(command) if a command is posted; if that returns false, the next `take` tries again.
   template <class Execute>
   void take(Execute execute) noexcept {
     int expected = kPosted;
@@ -310,16 +311,17 @@ private:
   Command command_{};
 };
 
-// Keeps what another thread ends alive while the scan thread uses it. That thread first takes it away from where the
-// scan thread looks for it, and then waits until the scan thread is out. The scan thread enters before it looks. The
-// order of both is one for all threads, so one of the two sees the other.
+// Keeps an object alive while the scan thread uses it and another thread wants to end it. The other thread first
+// removes the pointer by which the scan thread finds the object, and then waits until the scan thread has left. The
+// scan thread enters before it loads the pointer. Both are sequentially consistent, so at least one of the two threads
+// sees the other.
 class ScanUse {
 public:
-  // The scan thread. An exchange and a fence where a store and a load would do: emulators of processors let a load
-  // overtake the store before it, which the processors themselves do not.
+  // Scan thread. An exchange, and a fence in wait, where a store and a load would do: processor emulators reorder a
+  // load before an earlier store, which the processors themselves do not.
   void enter() noexcept { inside_.exchange(true); }
   void leave() noexcept { inside_.store(false); }
-  // The other one.
+  // The other thread: waits until the scan thread is outside.
   void wait() const noexcept {
     std::atomic_thread_fence(std::memory_order_seq_cst);
     while (inside_.load()) std::this_thread::yield();
@@ -331,8 +333,8 @@ private:
 
 // ---- memory of a host --------------------------------------------------------------------------------------------
 
-// Memory whose writer increases the counter `head` before each change and the counter `tail` after it. Both are aligned
-// and of 1, 2, 4 or 8 bytes.
+// Memory whose writer increments the counter `head` before each change and the counter `tail` after it. Both counters
+// are aligned and have 1, 2, 4 or 8 bytes.
 class GuardedMemory {
 public:
   using Range = std::pair<uint32_t, uint32_t>; // offset, bytes
@@ -340,7 +342,8 @@ public:
   GuardedMemory(const uint8_t* address, uint32_t head, uint32_t tail, uint32_t counterBytes) noexcept
       : address_(address), head_(address + head), tail_(address + tail), counterBytes_(counterBytes) {}
 
-  // Reader. The ranges, to the same offsets of `to`; false: changed during each of the tries, `to` is of no use.
+  // Reader: copies the ranges to the same offsets of `to`. False: they changed during every attempt, and `to` is
+  // invalid.
   bool copy(std::span<const Range> ranges, uint8_t* to, int tries) const noexcept {
     while (tries-- > 0)
       if (copyOnce(ranges, to)) return true;
@@ -348,7 +351,7 @@ public:
   }
 
 private:
-  // The writer counts `head` first and `tail` last; so the reader looks at them the other way round.
+  // The writer increments `head` first and `tail` last, so the reader loads `tail` first and `head` last.
   bool copyOnce(std::span<const Range> ranges, uint8_t* to) const noexcept {
     const uint64_t tail = counter(tail_);
     for (const auto& [offset, bytes] : ranges) copyShared(address_ + offset, to + offset, bytes);
@@ -363,7 +366,7 @@ private:
     default: return __atomic_load_n(reinterpret_cast<const uint64_t*>(at), __ATOMIC_ACQUIRE);
     }
   }
-  // Each word is read once, whole.
+  // Loads each word once, atomically.
   static void copyShared(const uint8_t* from, uint8_t* to, uint32_t bytes) noexcept {
     while (bytes != 0) {
       if (bytes >= 8 && reinterpret_cast<uintptr_t>(from) % 8 == 0) {

@@ -20,7 +20,7 @@ const rung_range* Memory::rangeOf(uint32_t space, uint32_t byte) const noexcept 
   const rung_space& s = program_->spaces[space];
   uint32_t low = 0;
   uint32_t high = s.range_count;
-  while (high - low > 1) { // halves: at most 32 passes
+  while (high - low > 1) { // bisection: at most 32 iterations
     const uint32_t middle = low + (high - low) / 2;
     if (s.ranges[middle].first_byte <= byte) {
       low = middle;
@@ -52,7 +52,7 @@ void Memory::writeByte(uint32_t space, uint32_t byte, uint8_t value) const noexc
 
 // ---- places ------------------------------------------------------------------------------------------------------
 
-// The last bytes of the block have a window that ends with it.
+// For the last bytes of the block, the window ends at the end of the block.
 Place Memory::inWindow(uint32_t offset, uint32_t bit, uint32_t width) const noexcept {
   Place place;
   place.window = std::min(offset, std::max(program_->memory_size, kLeastBlock) - kLeastBlock);
@@ -64,7 +64,7 @@ Place Memory::inWindow(uint32_t offset, uint32_t bit, uint32_t width) const noex
   return place;
 }
 
-// Whether bytes lie one after the other in the block, unexpanded. They are in their space, `byte` in `range`.
+// Whether the bytes are packed and adjacent in the block. They must be inside their space, and `byte` in `range`.
 bool Memory::together(const rung_range* range, uint32_t byte, uint32_t size) const noexcept {
   for (; range->repr == RUNG_REPR_PACKED; ++range) {
     if (byte + size - range->first_byte <= range->byte_count) return true;
@@ -112,7 +112,7 @@ void Memory::writeApart(const rung_program* program, uint8_t* block, const Place
 
 namespace {
 
-// Rounded to nearest; NaN gives 0, what is too large the nearest end of the signed range.
+// Rounds to nearest, saturating to the signed range; NaN gives 0.
 int64_t saturated(double value, uint32_t width) noexcept {
   if (std::isnan(value)) return 0;
   const int64_t highest = std::numeric_limits<int64_t>::max() >> (64 - width);

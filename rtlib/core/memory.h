@@ -1,5 +1,5 @@
-// A place of the memory block that was looked up once: what is read and written in every scan. Memory makes it and
-// reads and writes through it (memory.h); it holds for the life of the program.
+// Place: a location in the memory block that is looked up once and read or written in every scan. Memory creates Places
+// and accesses the block through them; they are valid for the life of the program.
 #pragma once
 #include <bit>
 #include <cstdint>
@@ -10,25 +10,25 @@
 
 namespace rung::core {
 
-// A bit, or an integer or real of up to eight bytes. Its bits lie together in the eight bytes of the block at `window`,
-// whatever its width and alignment: a load, a mask and a shift find it. Integers with bits in bytes of their own lie
-// apart, and are put together byte by byte. A default Place is outside all spaces: it reads 0, and writing it does
-// nothing.
+// A bit, or an integer or real of up to eight bytes. Whatever its width and alignment, its bits are adjacent within the
+// eight bytes of the block at `window`, so a load, a mask and a shift extract it. Integers whose bits have a byte each
+// are scattered (`apart`), and are assembled byte by byte. A default Place is outside all spaces: it reads 0, and
+// writing it does nothing.
 struct Place {
   uint64_t mask = 0;          // in the window; 0: outside, or apart
-  uint64_t one = 0;           // the lowest bit in the window: a product with it is a shift
+  uint64_t one = 0;           // the lowest bit in the window: multiplying by it shifts
   uint32_t window = 0;        // offset in the block
   uint8_t shift = 0;          // of the lowest bit in the window
   uint8_t above = 0;          // bits of the window above the highest
   uint8_t unused = 0;         // shift + above
   bool real = false;          // the bits of a double
-  uint32_t space = RUNG_NONE; // of a place that lies apart, where it begins; else RUNG_NONE
+  uint32_t space = RUNG_NONE; // start of a scattered place; RUNG_NONE: it is not scattered
   uint32_t byte = 0;
 
   bool apart() const noexcept { return space != RUNG_NONE; }
   bool outside() const noexcept { return mask == 0 && !apart(); }
-  uint32_t width() const noexcept { return 64u - unused; } // in bits; of one that is not outside
-  // The byte of the block that holds the lowest bit, and its number in it; of one that has a mask.
+  uint32_t width() const noexcept { return 64u - unused; } // in bits; only if it is not outside
+  // The byte of the block that holds the lowest bit, and the bit's number in it. Only for a place with a mask.
   uint32_t offset() const noexcept { return window + shift / 8u; }
   uint32_t bit() const noexcept { return shift % 8u; }
 };
@@ -38,14 +38,15 @@ struct Place {
 
 class Memory {
 public:
-  static constexpr uint32_t kLeastBlock = 8; // bytes that a block has at least, whatever the program needs
+  static constexpr uint32_t kLeastBlock = 8; // minimum size of a block in bytes, whatever the program needs
   Memory(const rung_program& program, uint8_t* block) noexcept : program_(&program), block_(block) {}
 
   const rung_program& program() const noexcept { return *program_; }
   uint8_t* block() const noexcept { return block_; }
 
   bool contains(uint32_t space, uint32_t byte, uint32_t size) const noexcept;
-  // How the byte is represented, and where its range lies in the block. Null: it is outside the space.
+  // The range that contains the byte: its representation and its place in the block. Null: the byte is outside the
+  // space.
   const rung_range* rangeOf(uint32_t space, uint32_t byte) const noexcept;
 
   // Outside the space reads give 0 and writes do nothing.
@@ -57,7 +58,8 @@ public:
   uint64_t read(uint32_t space, uint32_t byte, uint32_t size) const noexcept;
   void write(uint32_t space, uint32_t byte, uint32_t size, uint64_t value) const noexcept;
 
-  // What lies outside its space, or has more than eight bytes, is a Place outside. bit < 8.
+  // The Place of a bit (bit < 8) or of `size` bytes. If it is outside its space, or longer than eight bytes, the Place
+  // is outside.
   Place locateBit(uint32_t space, uint32_t byte, uint32_t bit) const noexcept;
   Place locate(uint32_t space, uint32_t byte, uint32_t size) const noexcept;
 
@@ -69,15 +71,15 @@ public:
     if (place.apart()) return readSignedApart(program_, block_, place);
     return extended(load(place) & place.mask, place);
   }
-  // The lowest bits of the value.
+  // Writes the lowest bits of the value.
   void write(const Place& place, uint64_t value) const noexcept {
     if (place.apart()) return writeApart(program_, block_, place, value);
     const uint64_t before = load(place);
     const uint64_t after = before ^ (((value * place.one) ^ before) & place.mask);
     std::memcpy(block_ + place.window, &after, sizeof after);
   }
-  // A place that holds no real is converted: read as a signed integer; written rounded to the nearest one and held in
-  // the range of its width, or, a bit, as 0 or not.
+  // A place that does not hold a real is converted: read as a signed integer; written rounded to the nearest integer
+  // and saturated to its width. A bit is written as 1 if the value is not 0.
   double readReal(const Place& place) const noexcept {
     if (place.real) return std::bit_cast<double>(read(place));
     return static_cast<double>(place.width() == 1 ? static_cast<int64_t>(read(place)) : readSigned(place));
@@ -97,7 +99,7 @@ private:
   static int64_t extended(uint64_t bits, const Place& place) noexcept {
     return static_cast<int64_t>(bits << place.above) >> place.unused;
   }
-  // Byte by byte. Not of an object, so that loops keep the fields of a Memory in registers.
+  // Access byte by byte. Static, so that loops keep the fields of a Memory in registers.
   static uint64_t readApart(const rung_program* program, uint8_t* block, const Place& place) noexcept;
   static int64_t readSignedApart(const rung_program* program, uint8_t* block, const Place& place) noexcept;
   static void writeApart(const rung_program* program, uint8_t* block, const Place& place, uint64_t value) noexcept;
@@ -106,14 +108,14 @@ private:
   uint8_t* block_;
 };
 
-// All the values that a machine exchanges with a program in one direction: read or written by one call, from or to an
-// array of 64-bit words.
+// Lists of places: all values that a machine exchanges with a program in one direction are read or written by one call,
+// to or from an array of 64-bit words.
 
-// How the word holds the value of a place.
+// The representation of a place's value in its word.
 enum class ValueForm : uint8_t {
   Raw,    // the bits of the place, zero-extended
   Signed, // sign-extended; written as Raw
-  Real,   // the bits of a double, in units of `scale` each; an integer place is converted
+  Real,   // the bits of a double, in units of `scale`; an integer place is converted
 };
 
 struct ListedPlace {
@@ -122,7 +124,7 @@ struct ListedPlace {
   double scale = 1; // the program's units in one of the machine's; not 0
 };
 
-// As many values as places.
+// `values` has as many elements as `places`.
 inline void readPlaces(Memory memory, std::span<const ListedPlace> places, std::span<uint64_t> values) noexcept {
   for (size_t i = 0; i < places.size(); ++i) {
     const ListedPlace& from = places[i];
@@ -144,8 +146,8 @@ inline void writePlaces(Memory memory, std::span<const ListedPlace> places, std:
   }
 }
 
-// The process-image copies of tasks without the bytes that no rung touches: an NC's area has thousands of bytes, and a
-// program looks at few of them. Who looks at the memory from outside needs what is left out, too.
+// The process-image copies of tasks without the bytes that no rung accesses: an NC's area has thousands of bytes, of
+// which a program uses few. Code that accesses the memory from outside also needs the bytes that are left out.
 
 struct NeededCopies {
   struct Range { // in `copies`
@@ -157,7 +159,7 @@ struct NeededCopies {
   };
 
   std::span<const rung_copy> of(const Range& range) const noexcept { return copies.subspan(range.first, range.count); }
-  // One of the bytes is left out.
+  // Whether any of the bytes is left out.
   bool leavesOut(uint32_t offset, uint32_t size) const noexcept {
     for (const rung_copy& copy : leftOut)
       if (offset < copy.to + copy.size && copy.to < offset + size) return true;

@@ -34,7 +34,8 @@ void fill(ServiceRecord& record, const ServiceReply& reply) noexcept {
 
 const rung_host_api& hostApi() noexcept { return kHostApi; }
 
-// The next number whose record is not of a pending request. At most kMaxPending of kRecords records are, so it exists.
+// The next number whose record has no pending request. It exists because at most kMaxPending of kRecords records have
+// one.
 uint32_t ServiceQueue::freeTicket() noexcept {
   for (uint32_t tries = 0; tries <= kMaxPending + 1; ++tries) {
     if (++lastTicket_ == 0) continue; // 0 is not a ticket
@@ -44,7 +45,7 @@ uint32_t ServiceQueue::freeTicket() noexcept {
 }
 
 uint32_t ServiceQueue::request(uint32_t service, const int64_t* args, uint32_t count) noexcept {
-  // Checked first, so that a program sees the same refusals whatever answers it.
+  // Checked first, so that a program gets the same refusals with and without a responder.
   if (pending_ == kMaxPending) {
     refused_.store(refused() + 1, std::memory_order_relaxed);
     return 0;
@@ -65,7 +66,7 @@ uint32_t ServiceQueue::request(uint32_t service, const int64_t* args, uint32_t c
     fill(record, reply);
     return request.ticket;
   }
-  if (!claimed && !requests_.push(request)) { // the host has not passed over those from before a restart
+  if (!claimed && !requests_.push(request)) { // the host has not skipped the requests from before a restart yet
     record = {};
     refused_.store(refused() + 1, std::memory_order_relaxed);
     return 0;
@@ -98,7 +99,7 @@ void ServiceQueue::deliverAll() noexcept {
   }
 }
 
-// Tickets continue: a reply that comes late, to a request from before, finds no record of its number.
+// Ticket numbers continue, so a late reply to a request from before finds no record.
 void ServiceQueue::restart() noexcept {
   for (ServiceRecord& record : records_) record = {};
   pending_ = 0;

@@ -15,11 +15,10 @@ namespace rung::core {
 inline constexpr uint32_t kMessageCapacity = 256;
 using MessageQueue = FixedRing<rung_message, kMessageCapacity>;
 
-// A service, described independently of the program that requests it, which may have been replaced when the request is
-// read.
+// The name and kind of a service, valid whichever program runs when its request is read.
 struct ServiceName {
   const char* text = "";
-  uint32_t kind = 0; // a number that all programs of the dialect have for it; 0: unknown
+  uint32_t kind = 0; // its number, the same in all programs of the dialect; 0: unknown
 };
 inline constexpr ServiceName kUnknownService;
 
@@ -43,10 +42,10 @@ struct ServiceReply {
   int64_t results[RUNG_MAX_SERVICE_ARGS] = {};
 };
 
-// Asked before a request is queued; true: the reply is filled in and the request does not enter the queue. With the
-// state Pending in the reply the responder has kept the request and completes it later. It runs inside the task, so it
-// must be bounded and must not run tasks itself. It may read the program's spaces, as the program has left them, and
-// writes to none (see rung_host_api).
+// Called before a request is queued. True: the reply is filled in, and the request does not enter the queue. If the
+// reply's state is RUNG_SERVICE_PENDING, the responder has kept the request and completes it later. It runs inside the
+// task, so it must be bounded and must not run tasks itself. It may read the program's spaces, which are up to date,
+// but not write them (see rung_host_api).
 struct ServiceResponder {
   bool (*respond)(void* data, const ServiceRequest& request, ServiceReply& reply) = nullptr;
   void* data = nullptr;
@@ -68,18 +67,18 @@ public:
   static constexpr uint32_t kRecords = 256;
 
   void setResponder(ServiceResponder responder) noexcept { responder_ = responder; }
-  // By the numbers of the program's services; they outlive the queue. Scan thread.
+  // Sets the names by service number; they outlive the queue. Scan thread.
   void setServices(const ServiceName* names, uint32_t count) noexcept {
     names_ = names;
     nameCount_ = count;
   }
 
-  // Program. `request` gives 0 when kMaxPending requests are unanswered, or after a restart as long as requests from
-  // before it fill the queue; `poll` and `result` take constant time.
+  // Program. `request` returns the ticket; 0 if kMaxPending requests are unanswered, or if requests from before a
+  // restart still fill the queue. `poll` and `result` take constant time.
   uint32_t request(uint32_t service, const int64_t* args, uint32_t count) noexcept;
   uint32_t poll(uint32_t ticket) const noexcept; // enum rung_service_state
   int64_t result(uint32_t ticket, uint32_t index) const noexcept;
-  // Scan thread, between scans: makes replies visible. Mostly there are none.
+  // Scan thread, between scans: makes replies visible. Usually there are none.
   void deliver() noexcept {
     if (replies_.size() != 0) deliverAll();
   }
@@ -90,7 +89,8 @@ public:
   bool take(ServiceRequest& request) noexcept { return requests_.pop(request); }
   bool complete(const ServiceReply& reply) noexcept { return replies_.push(reply); }
 
-  // Counters, since the last restart. Refused: no room. Stray: replies to tickets that were not pending.
+  // Counts since the last restart: requests refused for lack of room, and stray replies, whose tickets were not
+  // pending.
   uint32_t refused() const noexcept { return refused_.load(std::memory_order_relaxed); }
   uint32_t stray() const noexcept {
     return stray_.load(std::memory_order_relaxed) + replies_.lost() - lostBefore_.load(std::memory_order_relaxed);
@@ -98,8 +98,8 @@ public:
   uint32_t pending() const noexcept { return pending_; }
 
   const ServiceRecord& record(uint32_t number) const noexcept { return records_[number]; } // number < kRecords
-  // Scan thread, between scans; the host's side may be active. All tickets are forgotten: requests that wait are not
-  // seen any more, and replies to those that were taken count as stray.
+  // Scan thread, between scans; the host's side may be active. Forgets all tickets: queued requests are dropped, and
+  // replies to requests taken before count as stray.
   void restart() noexcept;
 
 private:

@@ -85,14 +85,14 @@ inline void Runner::beginStack() noexcept {
 
 namespace {
 
-// By units, the last of which may overlap the one before it. size >= sizeof(Unit).
+// Copies by units, of which the last may overlap the previous one. size >= sizeof(Unit).
 template <class Unit>
 void copyUnits(uint8_t* to, const uint8_t* from, uint32_t size) noexcept {
   for (uint32_t b = 0; b + sizeof(Unit) < size; b += sizeof(Unit)) std::memcpy(to + b, from + b, sizeof(Unit));
   std::memcpy(to + size - sizeof(Unit), from + size - sizeof(Unit), sizeof(Unit));
 }
 
-// Most copies are short.
+// Avoids the call of memcpy for short copies, which are the most frequent.
 void copyBytes(uint8_t* to, const uint8_t* from, uint32_t size) noexcept {
   constexpr uint32_t kCallPays = 128;
   if (size > kCallPays)
@@ -119,7 +119,7 @@ bool isEmpty(const uint8_t* line) noexcept {
   return any == 0;
 }
 
-// The bytes of `Line` at once, so that the compiler has them in wide registers.
+// Merges all bytes of `Line` at once, so that the compiler uses wide registers.
 template <class Line>
 void mergeLine(uint8_t* to, const uint8_t* from, uint8_t* mask) noexcept {
   Line bits{}, old{}, fresh{};
@@ -132,7 +132,7 @@ void mergeLine(uint8_t* to, const uint8_t* from, uint8_t* mask) noexcept {
   std::memset(mask, 0, sizeof bits);
 }
 
-// Masks are long and nearly empty: lines of them are looked at, and merged where there is something.
+// Masks are long and nearly empty: they are tested line by line, and only lines with set bits are merged.
 void copyMasked(uint8_t* to, const uint8_t* from, uint8_t* mask, uint32_t size) noexcept {
   uint32_t b = 0;
   for (; b + kLine <= size; b += kLine)
@@ -143,7 +143,7 @@ void copyMasked(uint8_t* to, const uint8_t* from, uint8_t* mask, uint32_t size) 
 } // namespace
 
 void Runner::copyAll(std::span<const rung_copy> copies) noexcept {
-  uint8_t* const memory = memory_; // which what is written could otherwise change, for all that a compiler knows
+  uint8_t* const memory = memory_; // a local copy, because the compiler must assume that the writes change memory_
   for (const rung_copy& c : copies)
     if (c.kind == RUNG_COPY_ALL)
       copyBytes(memory + c.to, memory + c.from, c.size);
@@ -169,21 +169,21 @@ inline void Runner::copyEnd(uint32_t task, const rung_task& t) noexcept {
 
 namespace {
 
-// The host may exchange a function while chunks run: another thread, with code that does the same. The tables of a
-// program that is loaded are constants, from which an atomic read is one read, too.
+// Another thread of the host may exchange a function, by code with the same effect, while chunks run. The tables of a
+// loaded program are constants, for which an atomic load costs nothing more.
 rung_chunk_fn functionOf(const rung_chunk_fn* functions, uint32_t chunk) noexcept {
   return std::atomic_ref<rung_chunk_fn>(const_cast<rung_chunk_fn&>(functions[chunk])).load(std::memory_order_acquire);
 }
 
-// The compiler has found that no way through the task uses up its budget. (`longest` is never above the budget, so
-// one that equals it may be heavier.)
+// Whether the compiler has found that no path through the task uses up its budget. (`longest` is limited to the budget,
+// so if it equals the budget, the path may be longer.)
 bool isBounded(const rung_task& task) noexcept {
   return task.loops == 0 && uint64_t{task.longest} * task.part_count < task.budget;
 }
 
 } // namespace
 
-// As runChunks, of a bounded task, without a look at the clock.
+// As runChunks, for a bounded task without a time limit.
 inline uint32_t Runner::runBounded(uint32_t pc, uint32_t limit) noexcept {
   uint8_t* const memory = memory_;
   rung_ctx* const ctx = ctx_;
@@ -197,7 +197,7 @@ inline uint32_t Runner::runBounded(uint32_t pc, uint32_t limit) noexcept {
   }
 }
 
-// A pc that is neither a chunk nor DONE counts as one, too.
+// A pc that is neither a chunk nor DONE counts as a fault, too.
 inline bool Runner::isFault(uint32_t pc) const noexcept { return pc != RUNG_PC_DONE && pc >= program_->chunk_count; }
 
 uint32_t Runner::overrun(const rung_task& task, const rung_chunk& chunk) noexcept {
@@ -215,7 +215,7 @@ uint32_t Runner::runChunks(uint32_t pc, uint32_t limit, const rung_task& task, u
   const rung_chunk* const chunks = program_->chunks;
   const rung_chunk_fn* const functions = code_.functions;
   const uint32_t count = program_->chunk_count;
-  const uint32_t first = std::min(limit, count); // that may be where it ends
+  const uint32_t first = std::min(limit, count); // first chunk at which the run may end
   uint32_t left = budget;
   ctx->extra_weight = 0;
   for (;;) {
@@ -255,7 +255,7 @@ inline void Runner::begin(uint32_t task) noexcept {
   if (hooks_.task != nullptr) hooks_.task(hooks_.data, task, true);
 }
 
-// What follows the chunks of a run or a part.
+// The work after the chunks of a run or a part.
 inline bool Runner::finish(uint32_t task, const rung_task& t, uint32_t pc) noexcept {
   const bool fault = isFault(pc);
   if (!fault) copyEnd(task, t);
@@ -265,7 +265,7 @@ inline bool Runner::finish(uint32_t task, const rung_task& t, uint32_t pc) noexc
   return !fault;
 }
 
-// A hook runs tasks within the time of its slice.
+// Tasks run by a hook count toward the time of its slice.
 bool Runner::runTask(uint32_t task) noexcept {
   const FloatEnvironment environment(defaultFloats_);
   if (!inHook_) startTime();
@@ -284,7 +284,8 @@ inline uint32_t Runner::runFrom(uint32_t pc, uint32_t limit, const rung_task& t,
   return isBounded(t) ? runBounded(pc, limit) : runCounted(pc, limit, t, budget);
 }
 
-// As long as control may go in loops; what comes after them is mostly far lighter than what is left of the budget.
+// Counts the budget only while there may be loops; the code after them usually costs far less than the remaining
+// budget.
 uint32_t Runner::runCounted(uint32_t pc, uint32_t limit, const rung_task& task, uint32_t& budget) noexcept {
   if (task.loop_free_chunk < limit) {
     pc = runChunks<false>(pc, task.loop_free_chunk, task, budget);
@@ -317,11 +318,11 @@ void Runner::findPlain() noexcept {
 
 namespace {
 
-// Contents of the memory block that are compared later.
+// Contents of the memory block, stored for a later comparison.
 class Contents {
 public:
-  // At most RUNG_MOST_CHANGES.
-  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): no more of it than words
+  // `words` has at most RUNG_MOST_CHANGES elements. NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): only as
+  // many elements as `words` are used
   Contents(const uint8_t* memory, std::span<const uint32_t> words) noexcept : memory_(memory), words_(words) {
     for (size_t i = 0; i < words_.size(); ++i) before_[i] = wordAt(words_[i]);
   }
@@ -344,7 +345,7 @@ private:
 
 } // namespace
 
-// At least once, until it is stopped. Mostly a run is a single chunk.
+// Runs the task `times` times, at least once, until it is stopped. Usually a run is a single chunk.
 inline uint32_t Runner::runRow(uint32_t entry, uint32_t times) noexcept {
   uint8_t* const memory = memory_;
   rung_ctx* const ctx = ctx_;
@@ -357,8 +358,8 @@ inline uint32_t Runner::runRow(uint32_t entry, uint32_t times) noexcept {
   }
 }
 
-// Runs right after another one, which may have found new inputs: once one of these has changed nothing, those that are
-// left would change nothing either.
+// Runs the task `times` times in succession. The first run may have new inputs, but once a later run has changed
+// nothing, the remaining ones would not either, and are skipped.
 uint32_t Runner::runAgain(const rung_task& task, uint32_t times) noexcept {
   if (times == 1 || task.change_count == 0) return runRow(task.entry, times);
   const Contents before(memory_, {program_->changes + task.change_first, task.change_count});
@@ -366,7 +367,7 @@ uint32_t Runner::runAgain(const rung_task& task, uint32_t times) noexcept {
   return pc != RUNG_PC_DONE || stopped_ || before.still() ? pc : runRow(task.entry, times - 1);
 }
 
-// With nothing in between, at one time.
+// Plain runs in succession, at the same time of the program's clock.
 bool Runner::runPlain(uint32_t task, uint32_t times) noexcept {
   const rung_task& t = program_->tasks[task];
   inTask_ = true;
@@ -388,7 +389,7 @@ bool Runner::runWithBorders(uint32_t task, uint32_t times) noexcept {
   }
 }
 
-// In line, and neither kind of run: each saves the registers that it needs alone.
+// Inlined, while the two kinds of runs are not, so that each saves only the registers that it needs.
 inline bool Runner::runWhole(uint32_t task, uint32_t times) noexcept {
   if (!mayRun() || task >= program_->task_count || times == 0) return false;
   const bool isPlain = task < kMostPlain && (plain_ >> task & 1) != 0 && limit_.ns == 0;
@@ -407,7 +408,7 @@ bool Runner::runNextPart(uint32_t task) noexcept {
     state.pc = t.entry;
     state.budget = t.budget;
   }
-  // A jump may have passed over parts: the run continues at once, up to the first border that is still ahead.
+  // A jump may have skipped parts: the run continues up to the first border that is still ahead.
   uint32_t limit = RUNG_PC_DONE;
   for (uint32_t k = state.part; k < t.part_count; ++k) {
     if (program_->part_ends[t.part_first + k] <= state.pc) continue;
@@ -415,7 +416,7 @@ bool Runner::runNextPart(uint32_t task) noexcept {
     break;
   }
   state.part = state.part + 1 < t.part_count ? state.part + 1 : 0;
-  if (state.part == 0) limit = RUNG_PC_DONE; // the last step ends the run whatever was jumped over
+  if (state.part == 0) limit = RUNG_PC_DONE; // the last step ends the run, whatever was skipped
   beginStack();
   state.pc = runFrom(state.pc, limit, t, state.budget);
   return finish(task, t, state.pc);
@@ -430,14 +431,14 @@ void Runner::stopOnFault(uint32_t task) noexcept {
   ctx_->fault.task = task;
   if (ctx_->fault.code == RUNG_NONE) ctx_->fault.code = kUndescribedFault;
   faulted_ = true;
-  if (inFaultHook_) return; // a fault of the last run; the first one stays on record
-  endForces();              // before the outputs are safe
+  if (inFaultHook_) return; // a fault of a run in the fault hook; the first fault stays recorded
+  endForces();              // before the outputs get their safe values
   clearSafes();
   if (hooks_.fault == nullptr) return;
   const rung_fault first = ctx_->fault;
   inFaultHook_ = true;
   faulted_ = false;
-  startTime(); // for what the hook runs
+  startTime(); // for tasks run by the hook
   hooks_.fault(hooks_.data);
   faulted_ = true;
   inFaultHook_ = false;
@@ -453,14 +454,14 @@ bool Runner::halt(uint32_t fault) noexcept {
 
 // ---- schedule ----------------------------------------------------------------------------------------------------
 
-// Most steps are these two: a schedule with a fast task has them for each of its runs.
+// Most steps are of these two kinds: a schedule with a fast task has both for each of its runs.
 inline void Runner::doStep(const rung_step& step) noexcept {
   if (step.op == RUNG_STEP_ADVANCE) return advance(step.arg);
   if (step.op != RUNG_STEP_RUN) return doRareStep(step);
   if (!stopped_) runWhole(step.task, step.arg);
 }
 
-// Not in line: the others need no frame of their own then.
+// Not inlined, so that the frequent steps need no stack frame.
 [[gnu::noinline]] void Runner::doRareStep(const rung_step& step) noexcept {
   if (step.op == RUNG_STEP_PART && !stopped_) runNextPart(step.task);
   if (step.op != RUNG_STEP_HOOK || isIdle(step, hooks_.works) || stopped_ || hooks_.step == nullptr) return;
@@ -477,7 +478,7 @@ std::span<const rung_step> Runner::realTimeSchedule() const noexcept {
   return {program_->scan, program_->scan_count};
 }
 
-// The same without waiting for the time of the steps.
+// The same for a scan without a real clock.
 std::span<const rung_step> Runner::untimedSchedule() noexcept {
   if (position_ != 0) return list_;
   if (joined_.empty()) {
@@ -487,8 +488,8 @@ std::span<const rung_step> Runner::untimedSchedule() noexcept {
   return joined_;
 }
 
-// The steps of the scan under way, up to its end, a fault, or a step after which `ends` says so; it is asked where
-// another one follows.
+// Runs the steps of the current scan up to its end, a fault, or a step after which `ends` returns true; it is called if
+// another step follows.
 template <class Ends>
 inline void Runner::walk(std::span<const rung_step> list, const Ends& ends) noexcept {
   const FloatEnvironment environment(defaultFloats_);

@@ -1,7 +1,7 @@
 // Runs a program's tasks and walks its schedule on the scan thread. Every loop is bounded: a task by its budget, a scan
 // by its list of steps. Memory, context and part states are the caller's; the runner allocates nothing.
 //
-// Every run has the floating-point settings that programs are compiled for, whatever the thread has.
+// Every run uses the floating-point settings that programs are compiled for, whatever settings the thread has.
 //
 // Parts. A run of a task that is cut into n parts takes exactly n RUNG_STEP_PART steps: part k stops at the first chunk
 // border at or after the end of part k outside every subroutine, a jump over that border suspends at its target, and a
@@ -21,12 +21,12 @@ namespace rung::core {
 
 // rung_fault::code when a chunk reported a fault without naming it, or returned a chunk that does not exist.
 inline constexpr uint32_t kUndescribedFault = 0xFFFFFFFEu;
-// The host's, of a machine that is too slow for the program: see runtime::Pace.
+// Raised by the host: the computer is too slow for the program, see runtime::Pace.
 inline constexpr uint32_t kOverrunFault = 0xFFFFFFFDu;
-// The host's, too: a slice took longer than its limit in time.
+// Raised by the host: a slice exceeded its time limit.
 inline constexpr uint32_t kMaxTimeFault = 0xFFFFFFFCu;
 
-// Where the run of a cut task is.
+// The position of a run of a task that is cut into parts.
 struct PartState {
   uint32_t pc = RUNG_PC_DONE;
   uint32_t part = 0; // the part that the next step runs; 0: a new run begins
@@ -38,17 +38,17 @@ struct RunnerHooks {
   void (*step)(void* data, uint32_t work) = nullptr; // RUNG_STEP_HOOK; may run tasks
   void (*fault)(void* data) = nullptr;               // after a fault; may run tasks
   void* data = nullptr;
-  // Around every run of a task or a part, process-image copies included; runs nothing.
+  // Called before and after every run of a task or part, outside its process-image copies; must not run tasks.
   void (*task)(void* data, uint32_t task, bool begins) = nullptr;
-  // Before that, where a run begins: brings in what it reads.
+  // Called before `task` at the beginning of a run: copies in what the run reads.
   void (*latch)(void* data, uint32_t task) = nullptr;
-  uint32_t works = ~0u; // that `step` has something to do for, a bit each; the others are left out
+  uint32_t works = ~0u; // a bit for each work that `step` has to do; the others are skipped
 };
 
-// A limit in time beside the budget in steps: how long a scan, a slot, a slice, the fast list or a task by itself may
-// run. It is looked at after every chunk.
+// A time limit beside the budget of steps: how long a scan, a slot, a slice, the fast list or a single task may run. It
+// is checked after every chunk.
 struct TimeLimit {
-  int64_t ns = 0; // 0: none
+  int64_t ns = 0; // 0: no limit
   int64_t (*nowNs)() = nullptr;
 };
 
@@ -67,78 +67,79 @@ struct ForcedBits {
 
 class Runner {
 public:
-  // `parts` has an entry for each task; `engine`: what the program's own code needs in its context; `room`: for as many
-  // steps as rung_program::scan has, so that a scan takes fewer; or null. All outlive the runner.
+  // `parts` has an entry for each task. `engine` is rung_ctx::engine for the program's own code. `room` has space for
+  // as many steps as rung_program::scan, whose joined steps are stored there; null: steps are not joined. All outlive
+  // the runner.
   Runner(const rung_program& program, uint8_t* memory, rung_ctx& ctx, PartState* parts, void* engine = nullptr,
          rung_step* room = nullptr) noexcept;
 
-  // Work that is new among them is done from the next scan on.
+  // Newly enabled works are done from the next scan on.
   void setHooks(RunnerHooks hooks) noexcept {
     hooks_ = hooks;
     joined_ = {};
     findPlain();
   }
-  // Of the program that runs, also of the next one: tasks begin and end with these copies; null: with all that the
-  // program's tables have. Outlives the runner.
+  // The copies with which tasks begin and end, for the running program; null: all copies of the program's tables. They
+  // outlive the runner.
   void setCopies(const NeededCopies* copies) noexcept {
     copies_ = copies;
     findPlain();
   }
   const NeededCopies* copies() const noexcept { return copies_; }
-  // What runs longer ends with kMaxTimeFault.
+  // Anything that runs longer ends with kMaxTimeFault.
   void setTimeLimit(TimeLimit limit) noexcept { limit_ = limit; }
-  // Another program takes over, between two scans: its memory, part states and room; the clock continues, a fault
-  // stays. From then on the caller keeps the new ones alive, and no longer those of before.
+  // Another program takes over, between two scans, with its memory, part states and room. The clock continues, and a
+  // fault stays. From then on the new objects must stay alive, and the former ones are no longer used.
   void setProgram(const rung_program& program, uint8_t* memory, PartState* parts, void* engine,
                   rung_step* room) noexcept;
 
-  // From now on `bits` are as they say for all who read them within a scan, whatever copies and the control's work
-  // leave there; for what chunks write, `code` sees to that. Between two slices; until `endForces`, which a fault, a
-  // stop, `reset` and `setProgram` do as well. Both outlive their use. Nothing happens after a fault.
+  // From now on every reader within a scan finds the forced `bits` at their values, whatever copies and the control
+  // write there; `code` ensures this for writes of chunks. To be called between two slices; lasts until `endForces`, a
+  // fault, a stop, `reset` or `setProgram`. Both arguments outlive their use. Does nothing after a fault.
   void force(const Code& code, std::span<const ForcedBits> bits) noexcept;
   void endForces() noexcept;
   std::span<const ForcedBits> forced() const noexcept { return forced_; }
-  // After others have written to the memory.
+  // Restores the forced bits after other code has written to the memory.
   void hold() noexcept {
     if (!forced_.empty()) holdAll();
   }
 
-  // Forgets the fault, all runs under way and the place in the schedule; the clock continues.
+  // Clears the fault, all runs under way and the position in the schedule; the clock continues.
   void reset() noexcept;
 
-  // False: a fault, now or before; or called from within a task.
+  // False: a fault has occurred, now or before, or the call comes from within a task.
   bool runTask(uint32_t task) noexcept;
   bool runPart(uint32_t task) noexcept;
 
-  // The schedule continues from where it is: to the end of the list, or to the end of a slot.
+  // Continue the schedule from its position to the end of the list, or to the end of a slot.
   void scan() noexcept;
   void slot() noexcept;
-  // The fast list from its beginning; the scan list stays where it is.
+  // Runs the fast list from its beginning; the position in the scan list does not change.
   void fast() noexcept;
 
-  // For a real clock: how long to wait before the next slice, and the slice: one ADVANCE and what follows it up to the
-  // next ADVANCE or the end of the list. A scan of a list without ADVANCE takes a period of the main task, spent at its
-  // beginning. Where the program has a list of slices, a scan that begins with a slice is one of that list, and a
-  // caller that continues it stays in it.
+  // For a real clock: the time until the next slice, and the slice itself, which is one ADVANCE and the steps up to the
+  // next ADVANCE or the end of the list. A scan of a list without ADVANCE takes a period of the main task, which passes
+  // at its beginning. If the program has a list of slices, a scan that begins with a slice follows that list to its
+  // end.
   uint32_t sliceDelayUs() const noexcept;
   void slice() noexcept;
-  // A slice comes next in which the fast task runs.
+  // Whether the fast task runs in the next slice.
   bool fastAhead() const noexcept;
-  // That slice, up to the first such run in it; `slice` then runs its rest.
+  // Runs that slice up to and including the first run of the fast task; `slice` then runs the rest.
   void sliceToFast() noexcept;
 
-  // The host stops the program, as a fault of its own would. False: it is stopped already, or a task is running.
+  // The host stops the program with a fault. False: a fault has stopped it already, or a task is running.
   bool halt(uint32_t fault) noexcept;
 
   int64_t nowUs() const noexcept { return ctx_->now_us; }
   void advance(int64_t us) noexcept { ctx_->now_us += us; }
   bool atListStart() const noexcept { return position_ == 0; }
-  // A slice has been begun by `sliceToFast` and waits for its rest.
+  // Whether `sliceToFast` has begun a slice whose rest is still to run.
   bool withinSlice() const noexcept { return position_ != 0 && list_[position_].op != RUNG_STEP_ADVANCE; }
 
   bool faulted() const noexcept { return faulted_; }
   const rung_fault& fault() const noexcept { return ctx_->fault; }
-  // A stopped program (the operator's stop) only lets the clock advance. Tasks can still be run by hand.
+  // In a program stopped by the operator only the clock advances. Single tasks can still be run.
   void setStopped(bool stopped) noexcept {
     stopped_ = stopped;
     if (stopped) endForces();
@@ -147,7 +148,7 @@ public:
 
 private:
   bool copiesNothing(uint32_t task) const noexcept;
-  void findPlain() noexcept; // after what a run begins or ends with has changed
+  void findPlain() noexcept; // to be called when the work at the beginning or end of runs changes
   bool runPlain(uint32_t task, uint32_t times) noexcept;
   uint32_t runRow(uint32_t entry, uint32_t times) noexcept;
   uint32_t runAgain(const rung_task& task, uint32_t times) noexcept;
@@ -156,7 +157,7 @@ private:
   uint32_t runFrom(uint32_t pc, uint32_t limit, const rung_task& t, uint32_t& budget) noexcept;
   uint32_t runCounted(uint32_t pc, uint32_t limit, const rung_task& task, uint32_t& budget) noexcept;
   void useCode(const Code& code) noexcept;
-  // `Timed`: with a limit in time; without one the clock costs nothing.
+  // `Timed`: there is a time limit; without one the clock is not read.
   template <bool Timed>
   uint32_t runChunks(uint32_t pc, uint32_t limit, const rung_task& task, uint32_t& budget) noexcept;
   void startTime() noexcept {
@@ -196,25 +197,25 @@ private:
   rung_ctx* ctx_;
   PartState* parts_;
   RunnerHooks hooks_;
-  Code own_;  // of the program
-  Code code_; // that runs
+  Code own_;  // the program's own
+  Code code_; // the code that runs
   std::span<const ForcedBits> forced_;
   const NeededCopies* copies_ = nullptr;
   TimeLimit limit_;
   static constexpr uint32_t kMostPlain = 64; // tasks
-  uint64_t plain_ = 0;                       // a bit by task: without a limit, a run is nothing but its chunks
+  uint64_t plain_ = 0;                       // by task: a run without a limit consists of its chunks only
   int64_t deadline_ = 0;
   rung_step* room_;
-  std::span<const rung_step> joined_; // rung_program::scan, with room in fewer steps; empty: not made yet
-  std::span<const rung_step> list_;   // the scan under way: rung_program::scan, that in fewer steps, or ::slices
+  std::span<const rung_step> joined_; // rung_program::scan with joined steps; empty: not made yet
+  std::span<const rung_step> list_;   // list of the current scan: rung_program::scan, joined_ or ::slices
   uint32_t position_ = 0;             // in it
-  uint32_t untimedPeriodUs_ = 0;      // what a scan of a list without ADVANCE takes
+  uint32_t untimedPeriodUs_ = 0;      // duration of a scan of a list without ADVANCE
   bool faulted_ = false;
   bool stopped_ = false;
   bool inTask_ = false;
-  bool inHook_ = false; // of the schedule
+  bool inHook_ = false; // a hook of the schedule is running
   bool inFaultHook_ = false;
-  bool defaultFloats_ = false; // in a scan or run: its floating-point settings are in force
+  bool defaultFloats_ = false; // the settings of FloatEnvironment are in force
 };
 
 } // namespace rung::core

@@ -1,4 +1,4 @@
-// The cycle counter that instrumented programs measure with, read in order with everything before and after.
+// The cycle counter of instrumented programs, read in program order.
 #pragma once
 #include <cstdint>
 #include <ctime>

@@ -1,6 +1,7 @@
-// The check of a program's tables at the gate (see program_info.h): everything in rung/program.h that the runtime
-// relies on, in the order of that file. Enums are closed sets: what a newer compiler may mean by another value is not
-// known here, so the program is refused. One walk over each table, and a search over the ranges where memory is named.
+// The check of a program's tables (see program_info.h): everything in rung/program.h on which the runtime relies, in
+// the order of that file. Enums are closed sets: the meaning of other values, which a newer compiler may use, is
+// unknown here, so the program is refused. Each table is scanned once, with a search of the ranges for each reference
+// to memory.
 #include <algorithm>
 #include <concepts>
 #include <cstring>
@@ -19,15 +20,15 @@ namespace {
 
 constexpr uint32_t kMaxAlign = 4096;
 constexpr uint32_t kMostMemory = 64u << 20; // bytes
-constexpr uint32_t kMostBudget = 1u << 26;  // steps; a compiler gives a million, or in proportion to the program
-constexpr uint32_t kMostTimes = 1000;       // that a step of the schedule runs its task
-constexpr uint64_t kMostRuns = 100'000;     // of tasks in a scan
+constexpr uint32_t kMostBudget = 1u << 26;  // steps; compilers use a million, or in proportion to the program
+constexpr uint32_t kMostTimes = 1000;       // runs of a task by one step of the schedule
+constexpr uint64_t kMostRuns = 100'000;     // runs of tasks in a scan
 constexpr uint64_t kLongestPassUs = 3'600'000'000;
 constexpr uint32_t kSpaceFlags = RUNG_SPACE_INPUT | RUNG_SPACE_OUTPUT | RUNG_SPACE_HIDDEN | RUNG_SPACE_ALLOCATED;
 constexpr uint32_t kSymbolFlags = RUNG_SYMBOL_READONLY | RUNG_SYMBOL_HIDDEN | RUNG_SYMBOL_CONST | RUNG_SYMBOL_AREA;
 
-// A word or a number of a message. One function puts all messages together: code for each of them would be half of
-// this file's.
+// A word or a number of a message. One function composes all messages, because code for each would be half the size of
+// this file's code.
 struct Part {
   explicit Part(const char* word) : text(word) {}
   template <std::unsigned_integral T>
@@ -56,18 +57,18 @@ public:
           &Checker::checkSlots, &Checker::checkContinuations, &Checker::checkMemory, &Checker::checkCopies,
           &Checker::checkCode, &Checker::checkTasks, &Checker::checkSchedule, &Checker::checkTexts}) {
       (this->*check)();
-      if (!error_.empty()) break; // what follows relies on it
+      if (!error_.empty()) break; // later checks rely on it
     }
     return error_;
   }
 
 private:
-  // The first error stays.
+  // Records an error; the first one stays.
   template <class... Parts>
   void fail(const Parts&... parts) {
     if (error_.empty()) error_ = textOf({Part(parts)...});
   }
-  // An entry of a table, and what is wrong with it.
+  // Records an error in an entry of a table.
   template <class... Parts>
   void failAt(const char* table, uint32_t number, const Parts&... parts) {
     if (error_.empty()) error_ = textOf({Part(table), Part(" "), Part(number), Part(" "), Part(parts)...});
@@ -87,11 +88,11 @@ private:
     if (name == nullptr) return failAt(table, number, "has no name");
     readable(table, number, name);
   }
-  // A text that is not null.
+  // Checks a text that is not null.
   void readable(const char* table, uint32_t number, const char* text) {
     if (file_ != nullptr && !file_->holdsText(text)) failAt(table, number, "has a text that is not in the file");
   }
-  // Entries that are not in the table of the program itself.
+  // Checks the location of entries outside the program's own table.
   template <class T>
   void held(const char* table, uint32_t number, const T* entries, uint64_t count) {
     if (file_ != nullptr && !file_->holds(entries, count * sizeof(T)))
@@ -158,7 +159,7 @@ private:
 
   // ---- memory ------------------------------------------------------------------------------------------------------
 
-  // A range of some space where it lies in the memory block.
+  // A range of a space, by its place in the memory block.
   struct Stretch {
     uint32_t offset;
     uint32_t end;
@@ -199,7 +200,7 @@ private:
     if (next != s.byte_count) failAt("space", number, "has ranges that do not cover its ", s.byte_count, " bytes");
   }
 
-  // The stretch that holds all these bytes; null: they lie in none, or in several.
+  // The stretch that contains all these bytes; null if they are in none, or in several.
   const Stretch* stretchOf(uint32_t offset, uint32_t size) const {
     const auto after = firstAfter(offset);
     if (after == stretches_.begin()) return nullptr;
@@ -236,7 +237,7 @@ private:
     if (s.byte + bytes > p_.spaces[s.space].byte_count) failAt("symbol", number, "lies outside space ", s.space);
   }
 
-  // So that a new program finds the state of an old one, and nothing else.
+  // Ensures that a new program finds exactly the state of an old one.
   void checkSlots() {
     std::vector<rung_span> taken;
     for (uint32_t i = 0; i < p_.slot_count && error_.empty(); ++i) {
@@ -305,7 +306,7 @@ private:
     }
   }
 
-  // Code takes the byte of an expanded bit for 0 or 1.
+  // Code assumes that the byte of an expanded bit is 0 or 1.
   void checkInit(uint32_t number) {
     const rung_init& init = p_.inits[number];
     inBlock("initial contents", number, init.offset, init.size);
@@ -323,7 +324,8 @@ private:
     }
   }
 
-  // Kept by the addresses of the dialect: whole logical bytes of spaces. It may continue from range to range.
+  // Retained spans are stored by addresses of the dialect, so they must consist of whole logical bytes of spaces. A
+  // span may extend over several ranges.
   void checkRetained(uint32_t number, const rung_span& span) {
     for (uint32_t done = 0; done < span.size && error_.empty();) {
       const Stretch* stretch = stretchOf(span.offset + done, 1);
@@ -349,7 +351,7 @@ private:
         failAt("copy", i, "overlaps itself");
     }
   }
-  // Its representation. It may continue from range to range.
+  // Checks an end of a copy, which may extend over several ranges, and returns its representation.
   uint32_t checkEnd(uint32_t number, const char* end, uint32_t offset, uint32_t size) {
     const Stretch* first = stretchOf(offset, 1);
     for (const Stretch* at = first; at != nullptr && at->repr == first->repr; at = stretchOf(at->end, 1))
@@ -439,7 +441,7 @@ private:
     if (scanPeriodUs(p_) == 0)
       fail("the scan list takes no time: it has no step that advances the clock, and the main task has no period");
   }
-  // What one scan runs.
+  // Checks the number of runs in one scan.
   void checkTimes(const char* list, std::span<const rung_step> steps) {
     uint64_t runs = 0;
     for (const rung_step& step : steps)
@@ -475,7 +477,7 @@ private:
   }
 
   const rung_program& p_;
-  const MappedFile* file_;         // that holds the tables; null: it is not known
+  const MappedFile* file_;         // the file that contains the tables; null: unknown
   std::vector<Stretch> stretches_; // by offset
   std::string error_;
 };

@@ -77,7 +77,7 @@ private:
     return std::string(file_.substr(offset, end - offset));
   }
 
-  // Where in the file the bytes of an address in memory come from.
+  // The offset in the file of the bytes at an address in memory.
   std::optional<uint64_t> offsetOf(uint64_t address) const {
     for (const auto& segment : segments_)
       if (segment.p_type == PT_LOAD && address >= segment.p_vaddr && address - segment.p_vaddr < segment.p_filesz)
@@ -115,7 +115,7 @@ private:
     return true;
   }
 
-  // That of the texts that such an entry names; null: it makes nothing be loaded.
+  // The list for texts of entries with this tag; null: such an entry loads nothing.
   std::vector<std::string>* listOf(int64_t tag) {
     switch (tag) {
     case DT_NEEDED: return &found_.needed;

@@ -1,5 +1,5 @@
-// What an ELF shared object exports and what it would make the dynamic linker load, read from its bytes without
-// trusting any of them. 32 and 64 bits, low byte first.
+// The exports of an ELF shared object, and the libraries that it would make the dynamic linker load, read from its
+// bytes without trusting any of them. 32 and 64 bits, little-endian.
 #pragma once
 #include <string>
 #include <string_view>
@@ -9,15 +9,15 @@ namespace rung::runtime {
 
 struct ElfObject {
   std::string problem;               // why it cannot be read as a shared object; then the rest is empty
-  std::string machine;               // the processor that it is for, as in the names of targets
+  std::string machine;               // its processor, as in the names of targets
   std::vector<std::string> needed;   // libraries by name
   std::vector<std::string> searched; // folders to search (RPATH, RUNPATH) and further libraries (filters, audit)
-  std::vector<std::string> exported; // names of its symbols for others
+  std::vector<std::string> exported; // names of its exported symbols
 };
 
-// This process's own, as ElfObject::machine.
+// The processor of this process, as in ElfObject::machine.
 std::string_view machineHere();
-bool isElf(std::string_view file); // of any kind
+bool isElf(std::string_view file); // an ELF file of any kind
 ElfObject readElf(std::string_view file);
 
 } // namespace rung::runtime

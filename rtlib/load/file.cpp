@@ -1,4 +1,4 @@
-// Written under a name of its own, then renamed.
+// Files are written under a temporary name, then renamed.
 #include "rtlib/load/file.h"
 
 #include <dlfcn.h>
@@ -23,7 +23,7 @@ namespace rung::runtime {
 
 namespace {
 
-// Of a link, the file that it leads to.
+// The file to which a link leads, or the path itself.
 std::string targetOf(const std::string& path) {
   std::array<char, PATH_MAX> real{};
   return ::realpath(path.c_str(), real.data()) != nullptr ? std::string(real.data()) : path;
@@ -37,7 +37,7 @@ std::string unfinishedName(const std::string& path) {
   return path + text.data();
 }
 
-// A file that no other process has, nor has prepared a link for.
+// Creates a file that no other process has opened or prepared a link for.
 File createUnfinished(int folder, const std::string& path, mode_t mode, std::string& name) {
   for (int attempt = 0; attempt < 8; ++attempt) {
     name = unfinishedName(path);
@@ -51,7 +51,7 @@ bool rename(int folder, const std::string& from, const std::string& to, bool may
   return ::renameat2(folder, from.c_str(), folder, to.c_str(), mayReplace ? 0 : RENAME_NOREPLACE) == 0;
 }
 
-// Makes a rename last. Some file systems have nothing to write for a folder and say so: EINVAL.
+// Makes a rename durable. Some file systems do not support this for folders and return EINVAL.
 std::string syncFolder(int folder, const std::string& name) {
   const File file(::openat(folder, name.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   const bool synced = file.ok() && ::fsync(file.fd()) == 0;
@@ -141,7 +141,7 @@ std::string replaceFile(const std::string& path, std::string_view bytes, const W
 
 namespace {
 
-constexpr int kNotRegular = EBADFD; // no call here gives it
+constexpr int kNotRegular = EBADFD; // no system call used here returns it
 
 std::string cannotWrite(const std::string& path, int code) { return "cannot write " + path + ": " + fileProblem(code); }
 
@@ -164,7 +164,7 @@ std::string fileProblem(int code) {
 
 bool replaceDiskFile(const std::string& path, std::span<const uint8_t> bytes, std::string& error) {
   const std::string temporary = path + ".tmp";
-  // A crash may have left it; whatever is there is not written through.
+  // A crash may have left it; it is removed, so that a link in its place is not followed.
   if (::unlink(temporary.c_str()) != 0 && errno != ENOENT) {
     error = cannotWrite(temporary, errno);
     return false;
@@ -181,11 +181,11 @@ bool replaceDiskFile(const std::string& path, std::span<const uint8_t> bytes, st
   return wrong.empty();
 }
 
-// A file of its own, because a lock belongs to the file and not to its name: one on a file that is replaced would be
-// gone with the first replacement. It is never removed, so all lock the same one.
+// The lock has a separate file, because a lock belongs to the file and not to its name: a lock on a file that is
+// replaced would end with the first replacement. The file is never removed, so all processes lock the same one.
 DiskLock lockDiskFile(const std::string& path) {
   DiskLock lock;
-  lock.file = openDiskFile(path, O_RDWR); // NFS locks only what may be written
+  lock.file = openDiskFile(path, O_RDWR); // NFS locks only files that are open for writing
   lock.made = !lock.file.ok() && errno == ENOENT;
   if (lock.made) lock.file = openDiskFile(path, O_RDWR | O_CREAT);
   if (!lock.file.ok()) {

@@ -18,7 +18,7 @@ std::string folderOfProgram() {
 
 namespace {
 
-// Programs lie in bin, some in a folder below it.
+// Programs are in bin or in a folder below it.
 std::string pathOf(const std::string& name) {
   const std::string folder = folderOfProgram();
   const std::string below = folder + "/../lib/rung/" + name;
@@ -30,7 +30,7 @@ std::string pathOf(const std::string& name) {
 
 Plugin::Plugin(const char* name, std::string_view build) {
   const std::string path = pathOf(name);
-  library_ = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL); // a scan may call it: nothing is looked up later
+  library_ = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL); // all symbols are bound now, because a scan may call it
   if (library_ == nullptr) {
     problem_ = dlerror();
     return;

@@ -1,5 +1,5 @@
-// Plug-ins: libraries that one of Rung's programs loads when it first needs them, from lib/rung beside the folder of
-// the program, as in a build and an installation.
+// Plug-ins: libraries that a program of Rung loads when it first needs them, from lib/rung beside the program's folder,
+// in a build as in an installation.
 #pragma once
 #include <string>
 #include <string_view>
@@ -11,14 +11,14 @@ std::string folderOfProgram();
 
 class Plugin {
 public:
-  /// `name`: of the file. It is used only if its function `rung_plugin_build` gives `build`, a text for whatever has to
-  /// be the same on both sides, since C++ goes between them. It stays loaded.
+  /// Loads the file `name`. It is accepted only if its function `rung_plugin_build` returns `build`, a text that
+  /// identifies the build, because the interface is C++ and both sides must match. It is never unloaded.
   Plugin(const char* name, std::string_view build);
 
   bool ok() const { return problem_.empty(); }
   const std::string& problem() const { return problem_; }
 
-  /// Of a plug-in that is ok; null where it has no such function.
+  /// A function of a plug-in that is ok(); null if it has no such function.
   template <class Function>
   Function function(const char* name) const {
     return reinterpret_cast<Function>(symbol(name));

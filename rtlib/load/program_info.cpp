@@ -76,9 +76,9 @@ std::string rungText(const rung_program& program, uint32_t rung, uint32_t line) 
   if (rung >= program.rung_count) return "unknown rung";
   const rung_info& info = program.rungs[rung];
   const char* routine = info.routine < program.routine_count ? program.routines[info.routine] : "?";
-  std::string text = info.number != 0 ? "rung " + std::to_string(info.number) : routine; // what is not drawn
+  std::string text = info.number != 0 ? "rung " + std::to_string(info.number) : routine; // not drawn
   if (info.title != nullptr && *info.title != '\0') text += " \"" + std::string(info.title) + "\"";
-  if (info.file >= program.file_count) return text; // the compiler's own
+  if (info.file >= program.file_count) return text; // made by the compiler
   return text + ", " + program.files[info.file] + ":" + std::to_string(line != 0 ? line : info.first_line);
 }
 

@@ -67,7 +67,7 @@ std::optional<Ref> element(const Ref& array, uint32_t index) {
   Ref ref = array;
   ref.count = 1;
   switch (array.kind) {
-  case RefKind::Bit: { // bits of an array follow each other
+  case RefKind::Bit: { // bits of an array are adjacent
     ref = bitRef(array.space, array.byte, array.bit + index);
     ref.readonly = array.readonly;
     return ref;

@@ -1,4 +1,4 @@
-// Seals as bytes, and what libsodium says of them.
+// Seals as bytes, and their verification with libsodium.
 #include "rtlib/load/seal.h"
 
 #include <sodium.h>
@@ -58,7 +58,7 @@ bool allZero(std::string_view bytes) {
   return std::all_of(bytes.begin(), bytes.end(), [](char c) { return c == 0; });
 }
 
-// What is wrong with the bytes of a seal themselves.
+// Why the bytes of a seal are not valid, whatever the file.
 std::string wrongBytes(std::string_view seal) {
   if (const uint32_t version = numberAt(seal, kVersion); version != kSealVersion)
     return "its seal has version " + std::to_string(version) + ", and only version " + std::to_string(kSealVersion) +
@@ -143,7 +143,7 @@ std::optional<PublicKey> parsePublicKey(std::string_view text) {
 std::string textOf(const PublicKey& key) { return std::string(kPublicWord) + hexOf(key.bytes) + "\n"; }
 std::string textOf(const KeyId& id) { return hexOf(id); }
 
-// Seals and keys, by libsodium.
+// Making seals and keys with libsodium.
 
 namespace {
 

@@ -1,9 +1,9 @@
-// The seal of a program file: a SHA-256 digest of all that lies before it, and optionally an Ed25519 signature of the
-// digest. It follows the image, where neither the dynamic linker nor a debugger looks. The digest shows damage, and
-// nothing else: everyone who changes a file can seal it again. Its origin is shown only by a signature and by its
-// owner.
+// The seal of a program file: a SHA-256 digest of everything before it, and optionally an Ed25519 signature of the
+// digest. It follows the image, where neither the dynamic linker nor a debugger reads. The digest detects damage and
+// nothing else, because anyone who changes a file can seal it again. The origin of a file follows only from a signature
+// or from its owner.
 //
-// From the start of the seal, numbers with the low byte first:
+// Offsets from the start of the seal; numbers are little-endian:
 //    0  digest of the image, SHA-256            32 bytes
 //   32  1: signed, 0: the next two are zero      4
 //   36  identity of the signer's public key     16
@@ -42,39 +42,38 @@ struct Seal {
   std::optional<Signature> signature;
 };
 
-// A file cut where its seal begins.
+// A file, divided into its image and its seal.
 struct SealedFile {
   std::string_view image;
   std::optional<Seal> seal;
-  std::string damage; // why the seal does not hold; empty when it does, and when there is none
+  std::string damage; // why the seal is invalid; empty if it is valid or missing
 };
 
-// Checks the digest; signatures are checked with a key only (isSignedBy).
+// Reads the seal and checks the digest. Signatures need a key and are checked by isSignedBy.
 SealedFile readSealed(std::string_view file);
 
-// What is signed: the digest, in words that no signature for another purpose begins with.
+// The message that is signed: the digest after a prefix that no message signed for another purpose has.
 std::string signedMessage(const Digest& digest);
 bool isSignedBy(const Seal& seal, const PublicKey& key);
 
-// The one line of a key file: the word, then exactly these bytes in hexadecimal digits. False: it is something else.
+// Parses the line of a key file: the word, then exactly these bytes in hexadecimal digits. False: it has another form.
 bool parseKeyLine(std::string_view text, std::string_view word, std::span<uint8_t> bytes);
 
-// The one line of a file NAME.pub: "rung-public-key-1 HEX". Nothing when it is something else.
+// Parses the line of a file NAME.pub, "rung-public-key-1 HEX". Nothing if it has another form.
 std::optional<PublicKey> parsePublicKey(std::string_view text);
 std::string textOf(const PublicKey& key);
 std::string textOf(const KeyId& id);
 
 Digest digestOf(std::string_view bytes);
-// A seal as the bytes that it has in a file.
+// The bytes of a seal as stored in a file.
 std::string bytesOf(const Seal& seal);
 
-// Makes seals and keys: for what builds program files. A host that loads them needs seal.h alone.
-
-// An Ed25519 key that signs; its bytes are wiped when it goes.
+// An Ed25519 key that signs; the destructor wipes its bytes. It and the functions after it are for tools that build
+// program files.
 class SecretKey {
 public:
   static SecretKey make();
-  // The one line of a key file: "rung-secret-key-1 HEX". Nothing when it is something else.
+  // Parses the line of a key file, "rung-secret-key-1 HEX". Nothing if it has another form.
   static std::optional<SecretKey> parse(std::string_view text);
   ~SecretKey();
   SecretKey(const SecretKey&) = default;
@@ -86,16 +85,17 @@ public:
 
 private:
   SecretKey() = default;
-  std::array<uint8_t, 64> bytes_{}; // libsodium's: the seed and the public key
+  std::array<uint8_t, 64> bytes_{}; // as libsodium stores it: seed and public key
 };
 
-// Of a program file: others than its owner must not be able to write to it (see trust.h).
+// Permissions of a program file: only its owner may write it (see trust.h).
 inline constexpr unsigned kProgramMode = 0755;
 
-// The file with a seal, in place of the one that it may have.
+// The file with a new seal, which replaces a seal that it may have.
 std::string sealed(std::string_view file, const SecretKey* key = nullptr);
 
-// A sealed program for those who load it: whole or not at all, and there after a power failure. "" or why it is not.
+// Writes a sealed program file, atomically and so that it survives a power failure. Returns "", or the reason of a
+// failure.
 std::string writeProgram(const std::string& path, std::string_view file);
 
 } // namespace rung::runtime

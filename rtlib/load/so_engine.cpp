@@ -1,4 +1,4 @@
-// Decides on the file, then dlopen (see so_engine.h).
+// Checks the file, then calls dlopen (see so_engine.h).
 #include "rtlib/load/so_engine.h"
 
 #include <array>
@@ -24,7 +24,7 @@ std::string becauseOfErrno() { return std::strerror(errno); }
 
 constexpr int kSeals = F_SEAL_WRITE | F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_SEAL;
 
-// A descriptor that cannot be written to any more, with the bytes of another.
+// A sealed memory file with the bytes of another file.
 File sealedCopy(int from, std::string& problem) {
   std::string bytes;
   problem = readAll(from, kMostBytes, bytes);
@@ -37,7 +37,7 @@ File sealedCopy(int from, std::string& problem) {
   return copy;
 }
 
-// Says in `remark` why a key could not be looked up.
+// The state of a seal; `remark` says why a key could not be looked up.
 SealState stateOf(const std::optional<Seal>& seal, const ProcessIds& ids, const SoOptions& options,
                   std::string& remark) {
   if (!seal) return SealState::Missing;
@@ -51,7 +51,7 @@ SealState stateOf(const std::optional<Seal>& seal, const ProcessIds& ids, const 
   return isSignedBy(*seal, *key) ? SealState::Signed : SealState::WrongSignature;
 }
 
-// Why these bytes of a file of such facts must not be loaded.
+// Why a file with these bytes and facts must not be loaded, or "".
 std::string contentProblem(std::string_view bytes, const FileFacts& facts, const ProcessIds& ids,
                            const SoOptions& options) {
   const SealedFile file = readSealed(bytes);
@@ -68,9 +68,9 @@ std::string contentProblem(std::string_view bytes, const FileFacts& facts, const
   return isPrivileged(ids) ? dependencyProblem(object) : object.problem;
 }
 
-// The descriptor to load from; none, and `problem` says why.
+// Opens the file to load. Not open: `problem` says why.
 File openTrusted(const std::string& path, const SoOptions& options, std::string& problem) {
-  // Opening a pipe would wait for its other end.
+  // O_NONBLOCK, because opening a pipe would wait for its other end.
   File file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
   const std::optional<FileFacts> facts = factsOf(file.fd());
   if (!facts) {
@@ -89,7 +89,7 @@ File openTrusted(const std::string& path, const SoOptions& options, std::string&
   return problem.empty() ? std::move(file) : File();
 }
 
-// The same of a memory file that the caller trusts.
+// The same for a memory file that the caller trusts.
 File openSealed(int from, std::string& problem) {
   const int seals = ::fcntl(from, F_GET_SEALS);
   if (seals < 0 || (seals & kSeals) != kSeals) {
@@ -108,12 +108,12 @@ File openSealed(int from, std::string& problem) {
 
 // ---- the library ----
 
-// A path of the descriptor that this process has not used for another: the dynamic linker takes a library that it has
-// open under a name for the one that is meant, whatever the name leads to now.
+// A path of the descriptor that this process has not used for another file: the dynamic linker reuses a library that is
+// open under the same name, whatever file the name refers to now.
 std::string freshNameOf(int fd) {
-  static std::atomic<uint64_t> loads = 0; // as the dynamic linker's names, of the whole process
+  static std::atomic<uint64_t> loads = 0; // for the whole process, as names of the dynamic linker
   const std::string self = std::to_string(::getpid());
-  // Where /proc shows the processes of another name space, the number would be another process's there.
+  // If /proc shows another PID name space, the number would belong to another process there.
   std::array<char, 32> shown{};
   const ssize_t length = ::readlink("/proc/self", shown.data(), shown.size());
   const bool isSelf = length > 0 && self == std::string_view(shown.data(), static_cast<size_t>(length));
@@ -132,7 +132,7 @@ std::string lastReason() {
 SoEngine::SoEngine(void* library, const rung_program* program, std::string path, File file)
     : library_(library), program_(program), path_(std::move(path)), file_(std::move(file)), descriptor_(file_.fd()) {}
 
-// Its descriptor stays open with it.
+// Keeps the library loaded, and its descriptor open, until the process ends.
 void SoEngine::keepWithProcess(const std::string& name) {
   dlopen(name.c_str(), RTLD_NOW | RTLD_NOLOAD | RTLD_NODELETE);
   file_.release();

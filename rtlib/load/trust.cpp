@@ -1,4 +1,4 @@
-// The rules, and the thin part that asks the system.
+// The rules, and the queries of the system.
 #include "rtlib/load/trust.h"
 
 #include <dirent.h>
@@ -25,8 +25,8 @@ constexpr uint32_t kGroupWrites = 0020;
 constexpr uint32_t kOthersWrite = 0002;
 constexpr size_t kMostKeyBytes = 4096;
 
-// What a compiler's driver links to a shared object of its own accord. The dynamic linker finds them in the system's
-// folders: of a privileged process it does not heed the environment.
+// The libraries that a compiler's driver links to a shared object by default. The dynamic linker finds them in the
+// system's folders: in a privileged process it ignores the environment.
 constexpr std::array<std::string_view, 11> kSystemLibraries = {
     "libc.so.6",  "libm.so.6",     "libgcc_s.so.1",        "libstdc++.so.6",        "libpthread.so.0",     "libdl.so.2",
     "librt.so.1", "ld-linux.so.2", "ld-linux-x86-64.so.2", "ld-linux-aarch64.so.1", "ld-linux-armhf.so.3",
@@ -38,7 +38,7 @@ std::string octal(uint32_t mode) {
   return text.data();
 }
 
-// What a user whom the process does not trust could do to a file.
+// Why a user whom the process does not trust could change a file.
 enum class Weakness : uint8_t { None, ForeignOwner, OthersWrite, GroupWrites };
 
 Weakness weaknessOf(const FileFacts& file, const ProcessIds& ids) {
@@ -56,7 +56,7 @@ std::string_view fixOf(Weakness weakness, const ProcessIds& ids) {
 
 std::string userText(uint32_t uid) { return uid == 0 ? "root" : "user " + std::to_string(uid); }
 
-// Only root can change it.
+// Whether only root can change it.
 bool isRoots(const FileFacts& file) { return file.uid == 0 && (file.mode & (kGroupWrites | kOthersWrite)) == 0; }
 
 struct CloseFolder {
@@ -64,7 +64,7 @@ struct CloseFolder {
 };
 using Folder = std::unique_ptr<DIR, CloseFolder>;
 
-// Opens a folder as its path is written, each part on its own; all of them are root's, or `problem` says which is not.
+// Opens a folder part by part along its path. All parts must belong to root; else `problem` says which does not.
 File openRootsFolder(std::string_view path, std::string& problem) {
   File folder(::open("/", O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   size_t end = 0;
@@ -96,7 +96,7 @@ File openKeysFolder(const std::string& path, const ProcessIds& ids, std::string&
   return File();
 }
 
-// Nothing where the file holds no key, or if another user could have put it there.
+// Nothing if the file contains no key, or another user could have put it there.
 std::optional<PublicKey> readKey(int folder, const char* name, const ProcessIds& ids) {
   const File file(::openat(folder, name, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
   const std::optional<FileFacts> facts = factsOf(file.fd());
@@ -161,7 +161,7 @@ ProcessIds idsOfThisThread() {
   ids.ruid = real;
   ids.euid = effective;
   ids.suid = saved;
-  ids.fsuid = static_cast<uint32_t>(::setfsuid(static_cast<uid_t>(-1))); // changes nothing, and says what it is
+  ids.fsuid = static_cast<uint32_t>(::setfsuid(static_cast<uid_t>(-1))); // changes nothing, and returns the present id
   ids.egid = ::getegid();
   return ids;
 }
@@ -193,7 +193,7 @@ std::optional<PublicKey> findKey(const KeyId& id, const std::string& folder, con
   const int fd = opened.fd();
   const Folder list(::fdopendir(fd));
   if (list == nullptr) return std::nullopt;
-  opened.release(); // the list's from now on
+  opened.release(); // now owned by `list`
   while (const dirent* entry = ::readdir(list.get())) {
     if (!std::string_view(entry->d_name).ends_with(".pub")) continue;
     const std::optional<PublicKey> key = readKey(fd, entry->d_name, ids);
@@ -202,14 +202,14 @@ std::optional<PublicKey> findKey(const KeyId& id, const std::string& folder, con
   return std::nullopt;
 }
 
-// Everything is looked up from the folder that was checked.
+// All files are opened relative to the folder that was checked.
 
 namespace {
 
 constexpr size_t kMostBytes = size_t{1} << 30;
 
 void make(const std::string& path) {
-  std::error_code ignored; // opening it says what is wrong
+  std::error_code ignored; // opening the folder reports errors
   std::filesystem::create_directories(std::filesystem::path(path).parent_path(), ignored);
   ::mkdir(path.c_str(), 0700);
 }

@@ -69,7 +69,7 @@ int64_t durationUs(std::string_view text) {
     std::string_view name;
     int64_t us;
   };
-  constexpr int64_t kMost = 1'000'000'000'000; // of the number: no product overflows
+  constexpr int64_t kMost = 1'000'000'000'000; // maximum number, so that no product overflows
   for (const Unit unit : {Unit{"us", 1}, Unit{"ms", 1000}, Unit{"s", 1'000'000}}) {
     if (!text.ends_with(unit.name)) continue;
     const int64_t number = wholeNumber(text.substr(0, text.size() - unit.name.size()));

@@ -1,5 +1,5 @@
-// The configuration keys of a dialect: who reads each and what it takes. The compiler and the simulated control check
-// the values by it; the reference and `rungc explain` print it.
+// The configuration keys of a dialect, with their readers and permitted values. The compiler and the simulated control
+// check values with these tables; the reference and `rungc explain` print them.
 #pragma once
 #include <cstdint>
 #include <span>
@@ -15,22 +15,22 @@ enum class ConfigForm : uint8_t {
   Whole,    // a whole number of `least` to `most`
   Number,   // any number
   Duration, // of `least` to `most` microseconds, with its unit
-  File,     // relative to what names it
-  Text,     // checked by its reader; `takes` says what it is
+  File,     // a path, relative to the file that names it
+  Text,     // checked by its reader; `takes` describes it
 };
 
 struct ConfigKey {
-  std::string_view key; // a part in <> matches any text: "tmr.<N>"; <n> digits alone
+  std::string_view key; // a part in <> matches any text: "tmr.<N>"; <n> matches digits only
   ConfigReader reader = ConfigReader::Control;
   ConfigForm form = ConfigForm::Text;
   std::string_view takes = "";
   int64_t least = 0;
   int64_t most = 0;
-  std::string_view otherwise = ""; // without the key
+  std::string_view otherwise = ""; // the value without the key
   std::string_view doc;
 };
 
-// Of every dialect.
+// Key of every dialect.
 inline constexpr ConfigKey kEncodingKey = {.key = "encoding",
                                            .reader = ConfigReader::Compiler,
                                            .takes = "the name of an encoding, such as gb18030",
@@ -41,7 +41,7 @@ std::span<const ConfigKey> gskConfigKeys();
 std::span<const ConfigKey> nctConfigKeys();
 std::span<const ConfigKey> technolConfigKeys();
 
-// The row of a key as a user writes it; null when there is none.
+// The row of a key as a user writes it; null if there is none.
 const ConfigKey* findConfigKey(std::span<const ConfigKey> keys, std::string_view key);
 // The key as people write it: "tmr.N".
 std::string shownKey(const ConfigKey& key);
@@ -50,9 +50,9 @@ std::string takesOf(const ConfigKey& key);
 // "" or "KEY: expected …, found 'VALUE'".
 std::string wrongValue(const ConfigKey& row, std::string_view key, std::string_view value);
 
-// Microseconds of "2ms", "500us", "1s"; -1 when it is anything else, a number without a unit too.
+// Microseconds of "2ms", "500us", "1s"; -1 for any other text, also for a number without a unit.
 int64_t durationUs(std::string_view text);
-// A whole number (text::wholeIn); -1 when it is anything else, negative or needs more than 63 bits.
+// A whole number (text::wholeIn); -1 for any other text, a negative number or one of more than 63 bits.
 int64_t wholeNumber(std::string_view text);
 
 } // namespace rung::nc

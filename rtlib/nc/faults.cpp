@@ -5,7 +5,7 @@ namespace rung::nc {
 
 namespace {
 
-// The host's, of every dialect.
+// Faults raised by the host, in every dialect.
 constexpr Fault kMaxTime = {"max-time",
                             "A slice took longer than the limit that its host has set (rung_instance_limit, "
                             "the parameter max-time of LinuxCNC's component, rung-run --max-time). The "

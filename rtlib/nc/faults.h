@@ -1,4 +1,5 @@
-// The faults that stop a program: the text that the compiler puts into it and a host shows, and what it means.
+// The faults that stop a program: the text that the compiler puts into the program and a host shows, and its
+// explanation.
 #pragma once
 #include <cstdint>
 #include <span>
@@ -14,18 +15,18 @@ inline constexpr std::string_view kTechnolRequested = "halt-status 6: requested"
 inline constexpr std::string_view kTechnolFastOverrun = "halt-status 10: fast raster overrun";
 inline constexpr std::string_view kTechnolProtection = "halt-status 13: protection";
 inline constexpr std::string_view kTechnolEdef = "EDEF: one instruction ties more than 64 bits";
-inline constexpr std::string_view kTechnolWatchdog = "watchdog: endless loop in "; // and the module
+inline constexpr std::string_view kTechnolWatchdog = "watchdog: endless loop in "; // followed by the module
 
 struct Fault {
   std::string_view text;
-  std::string_view explanation; // why it comes and where to look
+  std::string_view explanation; // its cause, and where to look
 };
 
-// By rung_program::dialect; empty for one that does not exist.
+// By rung_program::dialect; empty for an unknown dialect.
 std::span<const Fault> faultsOf(std::string_view dialect);
-// The fault of a program that stopped with this text; null when it is not one of the dialect's.
+// The fault with this text; null if it is not a fault of the dialect.
 const Fault* findFault(std::string_view dialect, std::string_view text);
-// What `rungc explain` finds it by: the text up to its colon.
+// The name by which `rungc explain` finds it: the text up to its colon.
 std::string_view shortName(const Fault& fault);
 
 } // namespace rung::nc

@@ -1,4 +1,4 @@
-// Tables of services by the names of their dialects.
+// Tables of services by dialect name.
 #include "rtlib/nc/service.h"
 
 #include "rtlib/nc/gsk/services.h"
@@ -13,7 +13,7 @@ auto* rowIn(const Rows& rows, uint32_t kind) {
   return kind - 1 < std::size(rows) ? &rows[kind - 1] : nullptr;
 }
 
-// Null: of another dialect.
+// Null for another dialect.
 const technol::DeviceService* technolService(std::string_view dialect, uint32_t kind) {
   return dialect == "technol" ? rowIn(technol::deviceServices(), kind) : nullptr;
 }

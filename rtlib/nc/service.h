@@ -1,6 +1,7 @@
-// The services that the programs of a dialect ask of their NC and their control, as tables: a row a service. The
-// compiler puts the text of a row into a program's table; the loader finds the row again by that text, and
-// from then on the service is the number of its row. A service whose arguments or results change is another one.
+// The services that programs of a dialect request from their NC and their control, as tables with a row for each
+// service. The compiler puts the text of a row into a program's table; the loader finds the row by that text, and from
+// then on the service is identified by the number of its row. If arguments or results change, it is a different
+// service.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -13,8 +14,8 @@
 
 namespace rung::nc {
 
-// All of them travel as 64 bits. Text, Bytes: the argument names bytes in the program's memory, the result is the
-// number of those that the answer brings.
+// Each value is passed as 64 bits. Text, Bytes: an argument refers to bytes of the program's memory, a result is the
+// number of bytes in the answer.
 enum class ServiceForm : uint8_t { Integer, Real, Text, Bytes };
 
 struct ServiceValue {
@@ -22,8 +23,8 @@ struct ServiceValue {
   ServiceForm form = ServiceForm::Integer;
 };
 
-// The arguments or the results of a service in their order, from words parted by blanks: a name with ":f" after it is
-// a real, with ":s" a text, with ":b" bytes.
+// The arguments or the results of a service, in order, from words separated by blanks: a name with the suffix ":f" is a
+// real, with ":s" a text, with ":b" bytes.
 class ServiceValues {
 public:
   constexpr explicit ServiceValues(std::string_view words) : words_(words) {
@@ -39,7 +40,7 @@ public:
     const Place& place = places_[number];
     return {words_.substr(place.first, place.size), place.form};
   }
-  // By the name as it is written.
+  // The index of a name, as written in the table.
   constexpr std::optional<uint32_t> find(std::string_view name) const {
     for (uint32_t i = 0; i < count_; ++i)
       if ((*this)[i].name == name) return i;
@@ -66,8 +67,8 @@ private:
 };
 
 struct ServiceRow {
-  // "NAME arguments -> results", as rung_program::services has it; without "->" the program takes no answer. `kind`: of
-  // the dialect's enumeration, from 1.
+  // `signature` is "NAME arguments -> results", as in rung_program::services; without "->" the program takes no answer.
+  // `of` is an enumerator of the dialect's ServiceKind, from 1.
   template <class Kind>
   constexpr ServiceRow(Kind of, const char* signature)
       : kind(static_cast<uint32_t>(of)), text(signature), name(before(text, " ")),
@@ -75,7 +76,7 @@ struct ServiceRow {
         results(after(text, kArrow)) {}
 
   uint32_t kind;
-  std::string_view text; // ends with a 0
+  std::string_view text; // null-terminated
   std::string_view name;
   bool takesAnswer;
   ServiceValues arguments, results;
@@ -93,7 +94,8 @@ private:
 
 inline constexpr uint32_t kUnknownService = 0; // as a kind
 
-// Rows are at the places of their kinds, and no two have one text. `rowOf` gives the row of an item of the table.
+// Whether the rows are in the order of their kinds, and their texts are distinct. `rowOf` returns the row of an item of
+// the table.
 template <class Items, class RowOf = std::identity>
 constexpr bool isServiceTable(const Items& items, RowOf rowOf = {}) {
   for (size_t i = 0; i < std::size(items); ++i) {
@@ -104,11 +106,11 @@ constexpr bool isServiceTable(const Items& items, RowOf rowOf = {}) {
   return true;
 }
 
-// By rung_program::dialect; null: it has no such kind.
+// By rung_program::dialect; null if it has no such kind.
 const ServiceRow* serviceOf(std::string_view dialect, uint32_t kind);
-// Some service of the dialect asks a device of the control.
+// Whether any service of the dialect uses a device of the control.
 bool hasDevices(std::string_view dialect);
-// By its text in a program's table; kUnknownService: no row has it.
+// The kind of a service by its text in a program's table; kUnknownService if no row has this text.
 uint32_t serviceKind(std::string_view dialect, std::string_view text);
 
 } // namespace rung::nc

@@ -21,7 +21,7 @@ const SignalTable* signalsOf(std::string_view dialect) {
 namespace {
 
 std::string_view noteIn(const SignalTable& table, std::span<const SignalNote> notes, const Signal& signal) {
-  const std::less<const Signal*> isBefore; // of rows that may be those of another table
+  const std::less<const Signal*> isBefore; // std::less, because the row may belong to another table
   const Signal* const first = table.data();
   if (isBefore(&signal, first) || !isBefore(&signal, first + table.size())) return {};
   const auto row = static_cast<uint16_t>(&signal - first);

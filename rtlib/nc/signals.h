@@ -1,4 +1,4 @@
-// The signals of a dialect's control, by the dialect's name, and the notes on them.
+// The signals of a dialect's control, by dialect name, and the notes on them.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace rung::nc {
 
-// By rung_program::dialect; null for one that does not exist.
+// By rung_program::dialect; null for an unknown dialect.
 const SignalTable* signalsOf(std::string_view dialect);
 
 // The text after "//" in DIALECT/signals.csv: where the manual contradicts itself about a signal, or leaves a name out.
@@ -18,7 +18,7 @@ struct SignalNote {
   const char* text;
 };
 
-// Of a row of one of the dialects' tables; "" for most.
+// The note on a row of one of the dialects' tables; "" for most rows.
 std::string_view noteOf(const Signal& signal);
 // For reference pages: the meaning with the note in brackets.
 std::string meaningWithNote(const Signal& signal);

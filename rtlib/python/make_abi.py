@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes _rung_abi.py, what rung/runtime.h declares as ctypes, for rung.py. make_abi.py RUNTIME.h PROGRAM.h OUTPUT"""
+"""Writes _rung_abi.py, rung/runtime.h for ctypes, which rung.py imports. make_abi.py RUNTIME.h PROGRAM.h OUTPUT"""
 import re
 import sys
 from pathlib import Path
@@ -33,18 +33,19 @@ def constants(text):
 
 
 def enums(text):
-    """{name: [(member, value)]}; each member of a header has its value written."""
+    """{name: [(member, value)]}; every member in the header has an explicit value."""
     return {name: [tuple(member.split(" = ")) for member in split(body, ",")]
             for name, body in re.findall(r"\benum (rung_\w+) \{(.*?)\}", text, re.DOTALL)}
 
 
 def split(text, separator):
-    """At separators that are in no parentheses."""
+    """Splits a text at separators outside parentheses."""
     return [part.strip() for part in re.split(separator + r"(?![^()]*\))", text) if part.strip() not in ("", "void")]
 
 
 class Types:
-    """From C to ctypes. `structs` are those that are written, `handles` point to what is known to the library alone."""
+    """Translates types of C to ctypes. `structs` are the structs to write, `handles` point to types private to the
+    library."""
 
     def __init__(self, structs, handles):
         self.structs, self.handles = structs, handles
@@ -70,7 +71,7 @@ class Types:
         return f"POINTER({known})" if stars else known
 
     def parameter(self, declared):
-        """As FUNCTIONS has it: a word where rung.py converts what it is given."""
+        """A parameter as in FUNCTIONS: a word if rung.py converts the argument."""
         *kind, name = re.findall(r"\w+|\*", declared)
         kind = [word for word in kind if word != "const"]
         if kind[0] in self.handles:

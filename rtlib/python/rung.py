@@ -8,17 +8,18 @@
             lamp(plc["LAMP"])
         print(plc.fault().text)
 
-rung/runtime.h describes what each call does. Where it has an error, the method raises Error; so does a number or text
-that is out of range or of another type, and the use of what is closed. Names of fields end in their unit: _us are
-microseconds of the program's clock, _ns nanoseconds of the machine's.
+rung/runtime.h describes each call. If the call returns an error, the method raises Error; so does a number or text that
+is out of range or of another type, and the use of a closed object. Names of fields end in their unit: _us are
+microseconds of the program's clock, _ns nanoseconds of the computer's.
 
-An Image may be used by all threads; an Instance, its cells and replacements by one thread at a time. One further thread
-may meanwhile take messages, take and answer requests, and make a Replacement; any may look at a Watch. In a callback
-its Instance may be read, by names that were read before, and nothing else. Python is not real time: what is bounded in
-C is not here.
+Any thread may use an Image; an Instance, its cells and replacements are used by one thread at a time. One further
+thread may take messages, take and answer requests, and make a Replacement at the same time; any thread may read a
+Watch. A callback may only read its Instance, by names that were read before. Python is not real time: times that are
+bounded in C are not bounded here.
 
 The library is the file that the environment variable RUNG_RUNTIME names, else librung-runtime.so.0 beside this module,
-in ../.., ../lib or ../../lib, else the dynamic linker's. Without one of a fitting version the import is an ImportError.
+in ../.., ../lib or ../../lib, else the dynamic linker finds it. Without a library of a suitable version the import
+raises ImportError.
 """
 import ctypes
 import enum
@@ -48,7 +49,7 @@ _MOST_ARGS = _abi.RUNG_MAX_SERVICE_ARGS
 # ---- enums of C ------------------------------------------------------------------------------------------------------
 
 def _enum(name, of, prefix, doc, kind=enum.IntEnum):
-    """An enum of C, whose names lose their prefix."""
+    """An enum of C, with the names without their prefix."""
     members = {member.removeprefix(prefix): value for member, value in _abi.ENUMS[of].items()}
     made = kind(name, members, module=__name__)
     made.__doc__ = doc
@@ -85,16 +86,16 @@ TO_PROGRAM, FROM_PROGRAM, BOUND_REAL = Direction
 M, S, T, B, H, KEY = FunctionKind
 QUEUE = _Answering.QUEUE
 
-_BITS = {Type.BIT: 1, Type.I8: 8, Type.I16: 16, Type.I32: 32}  # of the narrower ones
+_BITS = {Type.BIT: 1, Type.I8: 8, Type.I16: 16, Type.I32: 32}  # of types below 64 bits
 
-# One of 64 bits without a sign has the bits of one with a sign.
+# An unsigned type of 64 bits has the bits of the signed one.
 _HOST_TYPES = {kind: _abi.ENUMS["rung_host_type"][f"RUNG_HOST_{name}"] for kind, name in {
     ctypes.c_bool: "BOOL", ctypes.c_int8: "I8", ctypes.c_uint8: "U8", ctypes.c_int16: "I16", ctypes.c_uint16: "U16",
     c_int32: "I32", c_uint32: "U32", c_int64: "I64", c_uint64: "I64", ctypes.c_float: "F32", c_double: "F64"}.items()}
 
 
 def _member(kind, value):
-    """The member of an enum; of a later library it may be a number that is not known yet."""
+    """The member of an enum; the plain number if a later library has added it."""
     try:
         return kind(value)
     except ValueError:
@@ -104,7 +105,8 @@ def _member(kind, value):
 # ---- errors ----------------------------------------------------------------------------------------------------------
 
 class Error(Exception):
-    """A call that has done nothing: `status` is a Status below 0, or LATER of Forces, the text a sentence."""
+    """A failed call, which has had no effect: `status` is a Status below 0, or LATER from Forces; the text is a
+    sentence."""
 
     def __init__(self, status, text):
         super().__init__(status, text)
@@ -117,7 +119,7 @@ class Error(Exception):
 # ---- what Python gets of them ----------------------------------------------------------------------------------------
 
 def _decoded(text):
-    # The last character of a text that did not fit may be cut, and a name is as its source wrote it.
+    # The last character of a text that was cut off may be incomplete, and names have the encoding of the source.
     return text.decode(errors="replace")
 
 
@@ -130,8 +132,8 @@ def _space(number):
 
 
 def _record(name, struct, doc, **means):
-    """A named tuple for the fields of a struct that mean something in Python, and the struct's method that makes it.
-    `means` has the functions for values that are more than a number or a text."""
+    """A named tuple for the fields of a struct that are used in Python, and the struct's method that makes it. `means`
+    has functions that convert values which are not plain numbers or texts."""
     fields = [field for field, _ in struct._fields_ if field not in ("size", "reserved", "real")]
     record = namedtuple(name, [f"{field}_" if iskeyword(field) else field for field in fields], module=__name__)
     record.__doc__ = f"{doc} The fields are those of {struct.__name__} in rung/runtime.h."
@@ -182,7 +184,7 @@ def _request(asked):
 # ---- arguments -------------------------------------------------------------------------------------------------------
 
 def _integer(value, low, high):
-    """An integer in a range: ctypes itself drops the upper bits of what does not fit."""
+    """An integer in a range, because ctypes drops the upper bits of a value that does not fit."""
     try:
         number = operator.index(value)
     except TypeError:
@@ -200,7 +202,7 @@ def _real(value):
 
 
 def _text(value):
-    """The bytes of a text. C would take it to end at its first 0."""
+    """The bytes of a text, which must not contain a 0, because C would end it there."""
     try:
         text = value.encode()
     except (AttributeError, UnicodeEncodeError):
@@ -221,7 +223,7 @@ def _path(value):
 
 
 class _Handle(c_void_p):
-    """What C knows an object of this module by; null: it is closed. `end` is the name of the function that frees it."""
+    """The C handle of an object of this module; null: it is closed. `end` is the name of the function that frees it."""
 
     def __init__(self, end=None):
         super().__init__()
@@ -229,7 +231,7 @@ class _Handle(c_void_p):
 
     @classmethod
     def from_param(cls, value):
-        """Of anything else the handle is null, which the library refuses."""
+        """For any other object the handle is null, which the library refuses."""
         handle = getattr(value, "_handle", value)
         return handle if isinstance(handle, cls) else cls()
 
@@ -239,7 +241,7 @@ class _Handle(c_void_p):
 
 
 def _argument(convert):
-    """An argument that ctypes converts by a function of ours."""
+    """An argument type that ctypes converts by a function of this module."""
     return type(convert.__name__, (), {"from_param": staticmethod(convert)})
 
 
@@ -251,7 +253,7 @@ def _number(kind):
 
 # ---- functions of C --------------------------------------------------------------------------------------------------
 
-# What the words of the parameters mean.
+# The meaning of the words in the parameters.
 _KINDS = {"handle": _Handle, "new": POINTER(c_void_p), "text": _argument(_text), "path": _argument(_path),
           "int32_t": _number(c_int32), "uint32_t": _number(c_uint32), "int64_t": _number(c_int64),
           "uint64_t": _number(c_uint64), "size_t": c_size_t}
@@ -275,7 +277,7 @@ def _declared(library, name):
 
 
 def _load():
-    """The library with its functions declared, of a version that serves this module."""
+    """The library with its functions declared, in a version suitable for this module."""
     path = _find()
     try:
         library = ctypes.CDLL(path)
@@ -297,7 +299,7 @@ _library = _load()
 
 
 def _call(function, *arguments):
-    """The status of a call, where it is not an error."""
+    """The status of a call; an error is raised."""
     try:
         status = function(*arguments)
     except ctypes.ArgumentError as wrong:  # "argument 2: <class 'rung.Error'>: 'x' is not an integer"
@@ -308,7 +310,7 @@ def _call(function, *arguments):
 
 
 def _each(owner, function, struct):
-    """The entries of a list of C, which ends with EMPTY."""
+    """The entries of a list in C, which ends with EMPTY."""
     for index in itertools.count():
         entry = struct()
         if _call(function, owner, index, byref(entry)) == Status.EMPTY:
@@ -330,11 +332,11 @@ def version():
 
 # ---- callbacks -------------------------------------------------------------------------------------------------------
 
-_CALLBACKS = dict(_abi.rung_instance_options._fields_)  # by the names of their members
+_CALLBACKS = dict(_abi.rung_instance_options._fields_)  # by member name
 
 
 class _Raised(threading.local):
-    """The first exception of a callback within the call that this thread is in: none can pass through C."""
+    """The first exception of a callback within the thread's present call, because exceptions cannot pass through C."""
     first = None
 
 
@@ -342,7 +344,7 @@ _raised = _Raised()
 
 
 def _callback(kind, body, otherwise=None):
-    """A C function of a callback; gives `otherwise` after an exception."""
+    """A C function for a callback; it returns `otherwise` after an exception."""
     def called(*arguments):
         try:
             return body(*arguments)
@@ -354,7 +356,7 @@ def _callback(kind, body, otherwise=None):
 
 
 def _run(function, *arguments):
-    """_call for what runs callbacks, and raises what they have raised."""
+    """_call for functions that run callbacks; raises their first exception."""
     outer, _raised.first = _raised.first, None  # a callback may run another instance
     try:
         return _call(function, *arguments)
@@ -375,7 +377,7 @@ def _fill(reply, results, error):
 
 
 def _answered(answer, reply):
-    """What a `request` callback has given, as enum rung_answer."""
+    """The result of a `request` callback as enum rung_answer."""
     if answer is None:
         return _Answering.REFUSE
     if answer is QUEUE:
@@ -389,7 +391,7 @@ def _answered(answer, reply):
 # ---- images ----------------------------------------------------------------------------------------------------------
 
 class _Closing:
-    """What ends with its `with`."""
+    """An object that is closed at the end of its `with`."""
 
     def __enter__(self):
         return self
@@ -401,13 +403,13 @@ class _Closing:
 class Image(_Closing):
     """A compiled program.
 
-    `name` and `dialect` are its own. Instances and replacements may outlive it. It is closed by close, at the end of
-    its `with`, or when nobody uses it any more.
+    `name` and `dialect` are those of the program. Instances and replacements may outlive the image. It is closed by
+    close, at the end of its `with`, or when it is no longer referenced.
     """
 
     def __init__(self, path, *, allow_unsealed=False, keys_folder=None):
-        """Loads a program that `rungc build` has written. `allow_unsealed` takes one without a seal; `keys_folder` has
-        the public keys for signed programs, else the system's are taken. Error: REFUSED, OUT_OF_MEMORY."""
+        """Loads a program made by `rungc build`. `allow_unsealed` accepts a program without a seal; `keys_folder` has
+        the public keys for signed programs, by default the system's. Error: REFUSED, OUT_OF_MEMORY."""
         self._handle = _Handle("rung_image_close")
         keys = None if keys_folder is None else _path(keys_folder)
         options = _abi.rung_image_options(allow_unsealed=bool(allow_unsealed), keys_folder=keys)
@@ -417,11 +419,11 @@ class Image(_Closing):
         self.name, self.dialect = _decoded(program.name), _decoded(program.dialect)
 
     def close(self):
-        """Ends the use of the image. Closing again does nothing."""
+        """Closes the image. Closing again does nothing."""
         self._handle.free()
 
     def symbols(self):
-        """The author's names, constants included, one Symbol after the other in the order of their bytes."""
+        """The author's names, constants included, as Symbols sorted by bytes."""
         return (symbol.shown() for symbol in _each(self, _library.rung_image_symbol, _abi.rung_symbol_info))
 
 
@@ -429,19 +431,19 @@ class Image(_Closing):
 
 class Cell:
     """A cell of an instance that was found by its name, from Instance.cell. When another program takes over, it is the
-    cell of that name there; Error NOT_FOUND, WRONG_TYPE or OVERWRITTEN where there is none that serves."""
+    cell of that name there; Error NOT_FOUND, WRONG_TYPE or OVERWRITTEN if that has no suitable cell."""
 
     def __init__(self, handle, name, access):
-        # Not the instance: one that nobody uses any more ends, whoever keeps its cells.
+        # No reference to the instance, so that it can end although its cells are still referenced.
         self._handle, self.name = handle, name
         number = c_uint32()
         _call(_library.rung_instance_find, handle, name, access, byref(number))
         self._number = number.value
-        self._type = self._look().type  # of another program its width may be another; a text or real it stays
+        self._type = self._look().type  # the width may change with the program; a text or a real stays one
 
     @property
     def info(self):
-        """Its CellInfo in the program that runs now."""
+        """The CellInfo of the cell in the running program."""
         return self._look().shown()
 
     def _look(self):
@@ -450,11 +452,11 @@ class Cell:
         return info
 
     def read(self, first=0, count=1):
-        """The `first`-th element, from 0; a list, where `count` is not 1. A real is a float, everything else an int,
-        extended by its sign. A text is a str, read as a whole. Error: BAD_ARGUMENT, there are not so many elements."""
+        """The element with index `first`, from 0; a list, if `count` is not 1. A real is a float, everything else a
+        sign-extended int. A text is a str, read as a whole. Error: BAD_ARGUMENT, there are not that many elements."""
         if self._type == Type.TEXT:
             return self._read_text(first, count)
-        # The library refuses more elements than the cell has, so there is room for those alone.
+        # The library refuses more elements than the cell has, so the room is limited to these.
         room = _integer(count, 0, _NONE)
         values = (_abi.rung_value * (room if room < 2 else min(room, self._look().count)))()
         _call(_library.rung_instance_read, self._handle, self._number, first, count, values)
@@ -462,10 +464,10 @@ class Cell:
         return shown[0] if count == 1 else shown
 
     def write(self, value, first=0):
-        """Writes the `first`-th element, from 0; several from there on, where `value` is a list or anything else that
-        iterates. An integer is one of the cell's width, with or without a sign. A text is a str, cut off where the cell
-        does not hold it. Error: BAD_ARGUMENT, there are not so many elements, or an integer needs more bits than the
-        cell has; WRONG_TYPE, another kind of value, or a cell that was found for reading."""
+        """Writes the element with index `first`, from 0, or several from there on, if `value` is a list or another
+        iterable. An integer must fit in the cell's width, signed or unsigned. A text is a str, cut off to the length of
+        the cell. Error: BAD_ARGUMENT, there are not that many elements, or an integer needs more bits than the cell
+        has; WRONG_TYPE, another kind of value, or a cell that was found for reading."""
         if self._type == Type.TEXT:
             self._write_text(value, first)
             return
@@ -478,7 +480,7 @@ class Cell:
         return value.real if self._type == Type.F64 else value.integer
 
     def _bits(self):
-        """Of an element, in the program that runs now."""
+        """The bits of an element in the running program."""
         return _BITS.get(self._look().type, 64)
 
     def _given(self, value, bits=None):
@@ -493,7 +495,7 @@ class Cell:
     def _read_text(self, first, count):
         if (first, count) != (0, 1):
             raise Error(Status.BAD_ARGUMENT, f"{self.name} is a text, which is read as a whole")
-        room = ctypes.create_string_buffer(4 * self._look().count + 1)  # a byte of memory has at most four in UTF-8
+        room = ctypes.create_string_buffer(4 * self._look().count + 1)  # a byte of memory takes at most four in UTF-8
         _call(_library.rung_instance_read_text, self._handle, self._number, room, len(room))
         return _decoded(room.value)
 
@@ -510,33 +512,33 @@ class Cell:
 # ---- instances -------------------------------------------------------------------------------------------------------
 
 class Instance(_Closing):
-    """A program that runs: its memory, clock, queues, and the part of the control that belongs to its dialect.
+    """A running copy of a program with its memory, clock, queues, and the control of its dialect.
 
-    It ends by close, at the end of its `with`, or when nobody uses it any more; nothing switches it off but power_off.
+    It ends by close, at the end of its `with`, or when it is no longer referenced; only power_off switches it off.
 
-    Methods that run the program give True, or False where a fault has stopped it, now or before (see fault). After an
-    exception in a callback the call that led to it runs to its end and then raises that exception, the first of them.
+    Methods that run the program return True, or False if a fault has stopped it, now or before (see fault). After an
+    exception in a callback the call that led to it runs to its end and then raises the first such exception.
     """
 
     def __init__(self, image, *, request=None, fault=None, log=None, measure=False, queue_requests=False,
                  save_at_once=False, catch_up=0, most_overruns=0):
-        """One program that runs, not switched on yet.
+        """Makes an instance, which is not switched on yet.
 
-        request(plc, request): the program asks for a service, a Request, within a scan. Gives an Answer, or QUEUE: it
-            waits for next_request, or None: the control answers at once, as where no CNC is there to serve it. So it
-            does after an exception.
+        request(plc, request): the program makes a Request for a service, within a scan. Returns an Answer; QUEUE: the
+            request is queued for next_request; None: the control answers at once, as without a CNC and after an
+            exception.
         fault(plc): a fault has stopped the program, within a scan.
-        log(level, text): what an operator should know, with its LogLevel.
+        log(level, text): a message for the operator, with its LogLevel.
         measure: the times of scans are measured, for State.last_ns and .worst_ns.
-        queue_requests: without `request`, all requests wait for next_request.
-        save_at_once: what the program asks to be saved is on disk when a call returns; for a program that runs faster
-            than its clock.
-        catch_up, most_overruns: how many passes a run_due makes up for, and after how many late ones in a row the fault
-            `overrun` comes; 0: one, and 500.
+        queue_requests: without `request`, all requests are queued for next_request.
+        save_at_once: memory that the program requests to be saved is on disk when a call returns; for a program that
+            runs faster than its clock.
+        catch_up, most_overruns: the maximum number of scans that a run_due runs after a delay, and the number of
+            successive late scans at which the fault `overrun` stops the program; 0: one, and 500.
 
         Error: OUT_OF_MEMORY.
         """
-        me = weakref.ref(self)  # its callbacks do not keep it alive
+        me = weakref.ref(self)  # the callbacks do not keep it alive
         options = _abi.rung_instance_options(flags=bool(measure) * _InstanceFlags.MEASURE
                                         | bool(queue_requests) * _InstanceFlags.QUEUE_REQUESTS
                                         | bool(save_at_once) * _InstanceFlags.SAVE_AT_ONCE,
@@ -551,38 +553,38 @@ class Instance(_Closing):
             options.fault = _callback(_CALLBACKS["fault"], lambda *_: fault(me()))
         self._handle = _Handle("rung_instance_free")
         self._cells = {}
-        self._parts = []  # handles of what ends before it
-        self._used = [options]  # what C has addresses of: callbacks and bound variables
+        self._parts = []  # handles of objects that end before it
+        self._used = [options]  # objects whose addresses C has: callbacks and bound variables
         _call(_library.rung_instance_new, image, byref(options), byref(self._handle))
-        # Without `_used`: what a callback belongs to may hold the instance, which then would never end.
+        # Without `_used`: the object of a callback may reference the instance, which then would never end.
         weakref.finalize(self, _free_instance, self._handle, self._parts)
 
     def close(self):
-        """Ends it, after its watches and replacements. What was to be saved is on disk, or has been tried. Closing
-        again does nothing. Error: WRONG_THREAD, WRONG_STATE in a callback."""
+        """Ends the instance, after its watches and replacements, and tries to save retained memory that is not on disk
+        yet. Closing again does nothing. Error: WRONG_THREAD, WRONG_STATE in a callback."""
         _free_instance(self._handle, self._parts)
         self._used.clear()
 
     # -- power --
 
     def power_on(self, power=WARM):
-        """Switches the program on, COLD or WARM, or off and on again, after a fault too. False: what runs at a power-on
-        has faulted. Error: FAILED, retained memory cannot be read or saved, or another process uses it; the program is
-        off then."""
+        """Switches the program on, COLD or WARM, or off and on again, also after a fault. False: a task that runs at
+        power-on has faulted. Error: FAILED, retained memory cannot be read or saved, or another process uses it; the
+        program is off then."""
         return self._ran(_library.rung_instance_power_on, power)
 
     def power_off(self):
-        """A regular power-off: the scans that the dialect still needs run, and what is retained is on disk. Error:
-        FAILED, it is not; the program is off all the same; WRONG_STATE, it was off."""
+        """A regular power-off: runs the last scans that the dialect needs, and saves the retained memory to disk.
+        Error: FAILED, it could not be saved, but the program is off; WRONG_STATE, it was off."""
         _run(_library.rung_instance_power_off, self)
 
     def begin_power_off(self):
-        """A regular power-off of a machine that moves. True: the program needs scans with fresh inputs, ask again after each;
-        False: it needs no more, power_off switches it off. Error: WRONG_STATE, it was off."""
+        """Begins a regular power-off of a real machine. True: the program needs further scans with fresh inputs; call
+        again after each. False: it needs no more, and power_off switches it off. Error: WRONG_STATE, it was off."""
         return _call(_library.rung_instance_begin_power_off, self) == Status.LATER
 
     def stop(self):
-        """The operator's stop: the program's clock advances, and nothing else is done."""
+        """The operator's stop: only the program's clock advances."""
         _call(_library.rung_instance_stop, self)
 
     def start(self):
@@ -595,13 +597,14 @@ class Instance(_Closing):
         return _run(function, self, *arguments) != Status.FAULTED
 
     def run_due(self, ns):
-        """Runs what is due once the host's clock has advanced by so many nanoseconds, 0 to one hour. What is late is
-        caught up, as many of them as `catch_up` says; the others are left out (`missed`). Error: WRONG_STATE, the program is off, or its schedule has no period."""
+        """Runs the slices that are due after the host's clock has advanced by `ns`, 0 to one hour. Of late
+        scans up to `catch_up` run; the others are skipped (`missed`). Error: WRONG_STATE, the program is off, or its
+        schedule has no period."""
         return self._ran(_library.rung_instance_run_due, ns)
 
     def run_due_fast(self, ns):
-        """The same up to the end of the fast task of the slice that is due; its rest, and what is late, runs in the
-        next `run_due`, which is given the time since this call."""
+        """The same up to the end of the fast task of the slice that is due; the next `run_due`, with the time since
+        this call, runs its rest, and late slices."""
         return self._ran(_library.rung_instance_run_due_fast, ns)
 
     def slice(self):
@@ -622,18 +625,18 @@ class Instance(_Closing):
         return self._ran(_library.rung_instance_fast)
 
     def limit(self, ns):
-        """How long one of these calls may run the program before that is a fault, in nanoseconds of 0 to one hour; 0:
-        the budgets of its tasks alone count. Error: BAD_ARGUMENT."""
+        """Sets the time limit of a slice, which is a fault if exceeded, in nanoseconds, up to one hour; 0: only the
+        budgets of its tasks apply. Error: BAD_ARGUMENT."""
         _call(_library.rung_instance_limit, self, ns)
 
     def state(self):
-        """A State: clocks, counters since the power-on, and flags, as in `StateFlags.ON in plc.state().flags`."""
+        """The State: clocks, counters since the power-on, and flags, as in `StateFlags.ON in plc.state().flags`."""
         state = _abi.rung_state()
         _call(_library.rung_instance_state, self, byref(state))
         return state.shown()
 
     def program(self):
-        """The Program that runs, and the one whose fault has put that back."""
+        """The running Program, and the program whose fault has put it back."""
         program = _abi.rung_program_info()
         _call(_library.rung_instance_program, self, byref(program))
         return program.shown()
@@ -647,34 +650,34 @@ class Instance(_Closing):
     # -- names and values --
 
     def cell(self, name, access=READ):
-        """The Cell of a name of the program, an address of its dialect or a signal of the NC's interface, found for
-        READ or WRITE; looked up once. Error: NOT_FOUND; for WRITE also OVERWRITTEN, the sentence says where to write,
-        and WRONG_TYPE, a constant."""
+        """The Cell of a name of the program, an address of its dialect or a signal of the NC's interface, for READ or
+        WRITE; it is looked up once. Error: NOT_FOUND; for WRITE also OVERWRITTEN, with a sentence that says where to
+        write, and WRONG_TYPE, a constant."""
         if (name, access) not in self._cells:
             self._cells[name, access] = Cell(self._handle, name, access)
         return self._cells[name, access]
 
     def describe(self, name, access=READ, replacement=None):
-        """What a name is, a CellInfo, without a cell for it: in the program that runs or, with a Replacement, in that
-        one's new program. Errors as of cell."""
+        """The CellInfo of a name, without making a cell: in the running program or, with a Replacement, in its new
+        program. Errors as in cell."""
         info, constant = _abi.rung_cell_info(), ctypes.c_int64()
         _call(_library.rung_instance_describe, self, _Handle() if replacement is None else replacement, name, access,
               byref(info), byref(constant))
         return info.shown()
 
     def release(self, name, access=READ):
-        """The cell of a name is not used any more, nor is a Cell of it; asked for again, it is looked up anew."""
+        """Releases the cell of a name and its Cell objects; a later use looks it up again."""
         cell = self._cells.pop((name, access), None)
         if cell is not None:
             _call(_library.rung_instance_release, self, cell._number)
 
     def __getitem__(self, name):
-        """The value of a name, as Cell.read gives it; of an array a list. Errors as of cell."""
+        """The value of a name, as Cell.read returns it; for an array a list. Errors as in cell."""
         cell = self.cell(name)
         return cell.read() if cell._type == Type.TEXT else cell.read(0, cell._look().count)
 
     def __setitem__(self, name, value):
-        """Writes the value of a name, as Cell.write takes it; of an array all its elements. Errors as of cell and
+        """Writes the value of a name, as Cell.write; for an array all its elements. Errors as in cell and
         Cell.write."""
         cell = self.cell(name, WRITE)
         count = cell._look().count
@@ -684,8 +687,8 @@ class Instance(_Closing):
         cell.write(value)
 
     def read_all(self, names):
-        """The values of names in one call, all of one moment: {name: value}; of an array its first element. Errors as
-        of cell; WRONG_TYPE, a text."""
+        """The values of names in one call, all at the same moment: {name: value}; for an array its first element.
+        Errors as in cell; WRONG_TYPE, a text."""
         names = list(names)
         cells = [self.cell(name) for name in names]
         values = (_abi.rung_value * len(cells))()
@@ -693,7 +696,7 @@ class Instance(_Closing):
         return {name: cell._shown(value) for name, cell, value in zip(names, cells, values)}
 
     def write_all(self, values):
-        """Writes {name: value} in one call, all or nothing; of an array its first element. Errors as of cell and
+        """Writes {name: value} in one call, either all or none; for an array its first element. Errors as in cell and
         Cell.write; WRONG_TYPE, a text."""
         cells = [self.cell(name, WRITE) for name in values]
         given = [cell._given(value) for cell, value in zip(cells, values.values())]
@@ -702,8 +705,8 @@ class Instance(_Closing):
     def bind(self, name, variable, direction, scale=0):
         """Binds a variable of ctypes, c_bool to c_uint64, c_float or c_double, to a name: from now on it is copied
         TO_PROGRAM before every slice, or FROM_PROGRAM after every slice; then it is 0 after a fault and after the
-        power-off. `scale` is of reals: units of the program in one of the host's; 0: 1. Errors as of cell; WRONG_TYPE,
-        another variable, or a text of the program; BAD_ARGUMENT."""
+        power-off. `scale`, for reals: units of the program per unit of the host; 0 means 1. Errors as in cell;
+        WRONG_TYPE, a variable of another type, or a text of the program; BAD_ARGUMENT."""
         if type(variable) not in _HOST_TYPES:
             raise Error(Status.WRONG_TYPE, f"{name}: a bound variable is a bool, an integer, a float or a double of "
                                            f"ctypes, not {variable!r}")
@@ -713,10 +716,10 @@ class Instance(_Closing):
         self._used.append(variable)
 
     def bind_block(self, name, block, direction):
-        """Binds memory, any object of ctypes such as an array or a structure, to the bytes from a name on, as the
-        dialect lays them out: TO_PROGRAM, a run of a task takes what it may read where it begins; FROM_PROGRAM after
-        every slice; then it is 0 after a fault and after the power-off. Errors as of cell; OVERWRITTEN, for any of its
-        bytes; BAD_ARGUMENT, a block that does not begin with a byte or is too long."""
+        """Binds memory, any object of ctypes such as an array or a structure, to the bytes from a name on, in the
+        layout of the dialect: TO_PROGRAM, each run of a task copies the bytes that it may read at its beginning;
+        FROM_PROGRAM, it is copied after every slice, and is 0 after a fault and after the power-off. Errors as in cell;
+        OVERWRITTEN, for any of its bytes; BAD_ARGUMENT, a block that does not begin at a byte or is too long."""
         bound = _abi.rung_block(_text(name), ctypes.addressof(block), ctypes.sizeof(block),
                            _integer(direction, 0, _NONE))
         _call(_library.rung_instance_bind_blocks, self, byref(bound), 1)
@@ -725,33 +728,33 @@ class Instance(_Closing):
     # -- messages and services --
 
     def messages(self):
-        """The messages that the program has shown, cleared or logged and nobody has taken yet, one Message after the
-        other."""
+        """Takes the messages that the program has shown, cleared or logged, one Message after the other."""
         message = _abi.rung_message_info()
         while _call(_library.rung_instance_next_message, self, byref(message)) != Status.EMPTY:
             yield _message(message)
 
     def define_message(self, number, text, *, lasts=False, logged_only=False):
-        """What the machine's configuration says of a message, before the first power_on, for dialects that have the texts
-        outside of the program: %d, %x and %X in the text are places for the message's values; whether it is shown until
-        the program ends it, not shown at all. Errors: NOT_FOUND, the texts are in the program; WRONG_STATE."""
+        """Defines a message as the machine's configuration does, before the first power_on, for dialects whose message
+        texts are outside the program: %d, %x and %X in the text are placeholders for the message's values; the flags:
+        it is shown until the program ends it, it is not shown at all. Errors: NOT_FOUND, the texts are in the program;
+        WRONG_STATE."""
         flags = bool(lasts) * _MessageFlags.LASTS | bool(logged_only) * _MessageFlags.LOGGED_ONLY
         _call(_library.rung_instance_define_message, self, number, flags, text)
 
     def shown(self):
-        """What the operator sees now: a list of Message."""
+        """The messages that the operator sees now: a list of Message."""
         return [_message(message) for message in _each(self, _library.rung_instance_shown, _abi.rung_message_info)]
 
     def next_request(self):
-        """The next Request that waits for an answer; None: there is none."""
+        """Takes the next queued Request; None: there is none."""
         asked = _abi.rung_request()
         status = _call(_library.rung_instance_next_request, self, byref(asked))
         return None if status == Status.EMPTY else _request(asked)
 
     def answer(self, ticket, results=(), error=False):
         """Answers a request of next_request, by the same thread: at most 16 integers, and whether the service has
-        failed. The program sees it before its next slice. False: there are more answers than it can have asked for; try
-        again after a slice. Error: BAD_ARGUMENT, WRONG_TYPE."""
+        failed. The program sees it before its next slice. False: there are more answers than requests that it can have
+        made; try again after a slice. Error: BAD_ARGUMENT, WRONG_TYPE."""
         reply = _abi.rung_reply(ticket=_integer(ticket, 0, _NONE))
         _fill(reply, results, error)
         return _call(_library.rung_instance_answer, self, byref(reply)) != Status.LATER
@@ -759,20 +762,20 @@ class Instance(_Closing):
     # -- functions of a part program --
 
     def begin_function(self, channel, kind, code):
-        """Hands a function, M, S, T or B, of a channel (from 0) over to the program. Gives its line, for function_done;
-        None: the signals that it needs are in use, try again after the next slice. Error: NOT_FOUND, the control has no
-        such channel or no signals for it; WRONG_STATE, the program is off."""
+        """Starts a function, M, S, T or B, of a channel (from 0). Returns its handle, for function_done; None: the
+        signals that it needs are in use, try again after the next slice. Error: NOT_FOUND, the control has no such
+        channel or no signals for it; WRONG_STATE, the program is off."""
         line = c_uint32()
         status = _call(_library.rung_instance_begin_function, self, channel, kind, code, byref(line))
         return None if status == Status.LATER else line.value
 
     def function_done(self, channel, line):
-        """Whether the program has finished the function of a line that begin_function gave. Error: NOT_FOUND, no such
+        """Whether the program has finished the function with this handle of begin_function. Error: NOT_FOUND, no such
         channel."""
         return _call(_library.rung_instance_function_done, self, channel, line) != Status.LATER
 
     def abort_functions(self, channel):
-        """Reset, emergency stop: what is under way in the channel ends at once. Error: NOT_FOUND, no such channel."""
+        """Reset, emergency stop: functions under way in the channel end at once. Error: NOT_FOUND, no such channel."""
         _call(_library.rung_instance_abort_functions, self, channel)
 
     def carries_function(self, channel, kind, code):
@@ -786,34 +789,35 @@ class Instance(_Closing):
         return True
 
     def group_function(self, channel, code, group):
-        """The machine has this M function in a group of its choice, from now on. Error: NOT_FOUND, the dialect has no
-        such group, or the function has its group for good."""
+        """Assigns this M function to a group, from now on. Error: NOT_FOUND, the dialect has no such group, or the
+        group of the function is fixed."""
         _call(_library.rung_instance_group_function, self, channel, code, group)
 
     def high_speed_functions(self, channel):
-        """From now on the program finishes every kind of function by a signal of its own. Error: NOT_FOUND, the dialect
+        """From now on the program finishes each kind of function by a separate signal. Error: NOT_FOUND, the dialect
         has no such handshake."""
         _call(_library.rung_instance_high_speed_functions, self, channel)
 
     def axis_group(self, axis, group):
-        """The program commands this axis by the signals of a group, both from 0, and the host moves it: each command is a
-        request "AXLCTL axis command data-1 data-2". Error: NOT_FOUND, the dialect has no such axis or group."""
+        """From now on the program commands this axis by the signals of a group, both from 0, and the host moves it:
+        each command is a request "AXLCTL axis command data-1 data-2". Error: NOT_FOUND, the dialect has no such axis or
+        group."""
         _call(_library.rung_instance_axis_group, self, axis, group)
 
     # -- retained memory --
 
     def keep(self, path):
-        """Keeps retained memory in PATH.a and PATH.b, from the next power_on, which reports what is wrong with them.
-        Error: WRONG_STATE, not before the first power-on, or said before."""
+        """Stores retained memory in PATH.a and PATH.b, from the next power_on, which reports errors of the files.
+        Error: WRONG_STATE, the program has been on, or it was called before."""
         _call(_library.rung_instance_keep, self, path)
 
     def flush(self):
-        """Waits until what the program has left so far is on disk. Error: FAILED, it is not; WRONG_STATE, nothing is
-        kept."""
+        """Waits until the present retained memory is on disk. Error: FAILED, it is not; WRONG_STATE, it is not
+        stored."""
         _call(_library.rung_instance_flush, self)
 
     def unsaved(self):
-        """Why the last try to write retained memory failed; None: it did not."""
+        """Why the last attempt to write retained memory failed; None: it did not fail."""
         text = ctypes.create_string_buffer(512)
         status = _call(_library.rung_instance_unsaved, self, text, len(text))
         return None if status == Status.EMPTY else _decoded(text.value)
@@ -821,44 +825,45 @@ class Instance(_Closing):
     # -- profile --
 
     def profile(self):
-        """How often and how long each rung ran since the power-on, one Profile after the other. Error: WRONG_STATE, the
-        program was not built with `rungc build --profile`."""
+        """The number and times of runs of each rung since the power-on, one Profile after the other. Error:
+        WRONG_STATE, the program was not built with `rungc build --profile`."""
         return (entry.shown() for entry in _each(self, _library.rung_instance_profile, _abi.rung_profile))
 
     def worst_rung(self):
-        """The Profile of the rung whose longest run took longest; None: none has run. Errors as of profile."""
+        """The Profile of the rung with the longest single run; None: none has run. Errors as in profile."""
         worst = _abi.rung_profile()
         status = _call(_library.rung_instance_worst_rung, self, byref(worst))
         return None if status == Status.EMPTY else worst.shown()
 
     def clear_profile(self):
-        """Counts and times of all rungs begin anew. Errors as of profile."""
+        """Resets counts and times of all rungs. Errors as in profile."""
         _call(_library.rung_instance_clear_profile, self)
 
     # -- another program --
 
     def replace(self, replacement):
-        """The program of a Replacement takes over, with its state. The replacement then holds the former program: given
-        again, it puts that back. False: not at this moment, try again after the next slice. Error: WRONG_STATE, it was
-        made for another program than the one that runs, or a fault of its program has put the former one back;
-        BAD_ARGUMENT, for another instance."""
+        """The program of a Replacement takes over, with its state. The replacement then holds the former program, which
+        a second call puts back. False: not possible at this moment, try again after the next slice. Error: WRONG_STATE,
+        it was made for another program than the running one, or a fault of its program has put the former one back;
+        BAD_ARGUMENT, it was made for another instance."""
         return _call(_library.rung_instance_replace, self, replacement) != Status.LATER
 
     def shadow(self, shadow):
-        """A Shadow begins with the state of this moment; None ends the one that runs. False: not at this moment, try
+        """Begins a Shadow with the present state; None ends the running one. False: not possible at this moment, try
         again after the next slice, or a fault has stopped the program. Error: WRONG_STATE, there is a shadow already,
-        or it was made for another program or has begun before; BAD_ARGUMENT, for another instance."""
+        or it was made for another program or has begun before; BAD_ARGUMENT, it was made for another instance."""
         return _call(_library.rung_instance_shadow, self, _Handle() if shadow is None else shadow) == Status.OK
 
     # -- forcing --
 
     def force(self, forces):
-        """Puts Forces in effect in the place of those before; None ends all. False: a fault has stopped the program.
-        Error: WRONG_STATE, the program is stopped, or the set is of another one; BAD_ARGUMENT, of another instance."""
+        """Activates Forces instead of the former ones; None ends all. False: a fault has stopped the program. Error:
+        WRONG_STATE, the program is stopped, or the set is for another program; BAD_ARGUMENT, it is for another
+        instance."""
         return _call(_library.rung_instance_force, self, _Handle() if forces is None else forces) != Status.FAULTED
 
     def forced(self):
-        """A list of Force: what is forced now, in the order of the names."""
+        """The active forces: a list of Force, sorted by name."""
         return [force.shown()._replace(value=force.value.real if force.type == Type.F64 else force.value.integer)
                 for force in _each(self, _library.rung_instance_forced, _abi.rung_force_info)]
 
@@ -874,7 +879,7 @@ def _cell_numbers(cells):
 # ---- what belongs to an instance -------------------------------------------------------------------------------------
 
 class _Part(_Closing):
-    """What ends with its instance at the latest, and keeps it."""
+    """An object of an instance, which it references, and with which it ends at the latest."""
 
     def __init__(self, plc, end, new, *arguments):
         self._handle = _Handle(end)
@@ -884,21 +889,21 @@ class _Part(_Closing):
         plc._parts.append(self._handle)
 
     def close(self):
-        """Ends it. Closing again does nothing."""
+        """Closes the object. Closing again does nothing."""
         self._handle.free()
         if self._handle in self._plc._parts:
             self._plc._parts.remove(self._handle)
 
 
 class Watch(_Part):
-    """Names that other threads look at while the program runs: their values at the end of a scan, all of one scan.
+    """Names that other threads watch while the program runs: their values at the end of a scan, all of the same scan.
 
     It ends by close, at the end of its `with`, or with its instance.
     """
 
     def __init__(self, plc, names, depth=0):
-        """Watches names, of an array its first element, from the end of this scan on; from any thread, where they were
-        read before. `depth`: how many scans are kept for samples, at most 1,000,000. Errors as of Instance.cell;
+        """Watches names, of an array the first element, from the end of the current scan on; from any thread, if they
+        were read before. `depth`: number of scans kept for samples, at most 1,000,000. Errors as in Instance.cell;
         WRONG_TYPE, a text; WRONG_STATE, there are 16 already; BAD_ARGUMENT."""
         self._names = list(names)
         self._cells = [plc.cell(name) for name in self._names]
@@ -906,12 +911,12 @@ class Watch(_Part):
                          len(self._cells), depth)
 
     def newest(self):
-        """(Sample, {name: value}) of the last scan that is over, or of the moment of a fault; None: none has ended
-        since the watch began. A name that the program no longer has is 0. Any thread, and several at a time."""
+        """(Sample, {name: value}) of the last complete scan, or of the moment of a fault; None: no scan has ended since
+        the watch was made. A name that the program no longer has is 0. Any thread, also several at a time."""
         return self._sample(_library.rung_watch_newest)
 
     def samples(self):
-        """(Sample, {name: value}) of every scan that waits, one after the other. Any thread, one at a time."""
+        """Takes (Sample, {name: value}) of every scan that was kept, one after the other. Any thread, one at a time."""
         return iter(lambda: self._sample(_library.rung_watch_next), None)
 
     def _sample(self, function):
@@ -922,7 +927,7 @@ class Watch(_Part):
 
 
 class Trace(_Part):
-    """The scans of a Watch as a file for wave viewers: it takes them in the place of Watch.samples.
+    """The scans of a Watch as a file for wave viewers; it takes them instead of Watch.samples.
 
     It ends by close, at the end of its `with`, or with its instance.
     """
@@ -932,72 +937,74 @@ class Trace(_Part):
         self._handle = _Handle("rung_trace_free")
         _call(_library.rung_trace_new, watch, path, byref(self._handle))
         self._plc, self._watch = watch._plc, watch
-        # Before the watch.
+        # It ends before the watch.
         self._plc._parts.insert(self._plc._parts.index(watch._handle), self._handle)
 
     def write(self):
-        """Writes all scans that wait. False: none waited. Error: FAILED."""
+        """Writes all scans that were kept. False: there were none. Error: FAILED."""
         return _call(_library.rung_trace_write, self) != Status.EMPTY
 
 
 class Replacement(_Part):
-    """Another program of the same dialect, ready to take over from the one that runs in an instance (Instance.replace).
+    """Another program of the same dialect, ready to take over from the running program of an instance
+    (Instance.replace).
 
     It ends by close, at the end of its `with`, or with its instance.
     """
 
     def __init__(self, plc, image):
-        """Finds out what becomes of the state of the program that runs in `plc`, which may be scanned meanwhile by its
-        thread, but neither closed nor given another program. Error: REFUSED, a program of another dialect;
+        """Determines what happens to the state of the running program of `plc`, which may run in its thread meanwhile,
+        but must neither be closed nor get another program. Error: REFUSED, a program of another dialect;
         OUT_OF_MEMORY."""
         super().__init__(plc, "rung_replacement_free", _library.rung_replacement_new, image, None, 0)
 
     def report(self):
-        """A Report of what replace would do now: how many names and states stay, how many change, the bytes that are
-        copied; and how long a slice of the new program may last on this machine, and how long it may, also as a sentence."""
+        """The Report of what replace would do now: the numbers of names and states that stay and of changes, the bytes
+        to copy; the time that a slice of the new program may take on this computer, and its period, also as a
+        sentence."""
         report = _abi.rung_replacement_info()
         _call(_library.rung_replacement_report, self, byref(report))
         return report.shown()
 
     def allow_late(self):
-        """Lets the new program take over although a slice of it may last longer than its period."""
+        """Allows the new program to take over although a slice of it may last longer than its period."""
         _call(_library.rung_replacement_allow_late, self)
 
     def changes(self):
-        """What replace would change now: a list of Change, cells before states, each in the order of their names."""
+        """The changes that replace would make now: a list of Change, cells before states, each sorted by name."""
         return [change.shown() for change in _each(self, _library.rung_replacement_change, _abi.rung_change)]
 
     def rungs(self):
-        """Which rungs are not the same then: a list of RungChange, in the order of the new program, then those that were
-        removed."""
+        """The rungs that replace would change now: a list of RungChange, in the order of the new program, then the
+        removed ones."""
         return [change.shown() for change in _each(self, _library.rung_replacement_rung, _abi.rung_rung_change)]
 
 
 class Shadow(_Part):
-    """Another program that runs beside the one of an instance, on what that one reads and is answered, so that its
-    outputs can be compared before it takes over (Instance.shadow). Nothing of it gets out.
+    """Another program that runs beside the program of an instance, on its inputs and answers, so that the outputs can
+    be compared before it takes over (Instance.shadow). It has no effect outside.
 
     It ends by close, at the end of its `with`, or with its instance.
     """
 
     def __init__(self, plc, image, scans, room=64):
-        """For so many scans of the schedule, with room for so many runs of tasks that wait for `work`. Error: REFUSED,
-        a program of another dialect or schedule; BAD_ARGUMENT; OUT_OF_MEMORY."""
+        """A shadow for `scans` scans of the schedule, with room for `room` recorded runs of tasks that wait for `work`.
+        Error: REFUSED, a program of another dialect or schedule; BAD_ARGUMENT; OUT_OF_MEMORY."""
         super().__init__(plc, "rung_shadow_free", _library.rung_shadow_new, image, _integer(scans, 0, _NONE),
                          _integer(room, 0, _NONE))
 
     def work(self):
-        """Runs and compares one run of a task that was recorded. False: none waits."""
+        """Executes and compares one recorded run of a task. False: there is none."""
         return _call(_library.rung_shadow_work, self) == Status.OK
 
     def report(self):
-        """A ShadowReport."""
+        """The ShadowReport of the comparison so far."""
         report = _abi.rung_shadow_info()
         _call(_library.rung_shadow_report, self, byref(report))
         return report.shown()
 
     def differences(self):
-        """What the last report has counted: a list of Difference, in the order of their names."""
+        """The differences of the last report: a list of Difference, sorted by name."""
         def shown(difference):
             of = (lambda value: value.real) if difference.type == Type.F64 else (lambda value: value.integer)
             return difference.shown()._replace(running=of(difference.running), next=of(difference.next))
@@ -1005,16 +1012,16 @@ class Shadow(_Part):
 
 
 class Forces(_Part):
-    """Names that a person holds at a value: whoever reads one within a scan reads that value (Instance.force).
+    """Names that a user forces to a value: every reader within a scan gets that value (Instance.force).
 
-    It ends by close, at the end of its `with`, or with its instance; one that is in effect ends then, too.
+    It ends by close, at the end of its `with`, or with its instance; active forces end then, too.
     """
 
     def __init__(self, plc, values, owner="", replacement=None, access=READ):
-        """`values`: {name: value}, a float for a real and an int for all others; of an array its first element is
-        forced; with access=REAL the real of 64 bits that begins there. With a Replacement for its program, else for the
-        one that runs. Error: NOT_FOUND; WRONG_TYPE, a text, a constant, or no room for a real; REFUSED, the program writes
-        a cell, and no compiler serves its image; LATER, the compiler is at work: try again; BAD_ARGUMENT."""
+        """`values`: {name: value}, a float for a real and an int for all others; for an array its first element; with
+        access=REAL the 64-bit real at that place. With a Replacement for its program, else for the running one. Error:
+        NOT_FOUND; WRONG_TYPE, a text, a constant, or no space for a real; REFUSED, the program writes a cell, and no
+        compiler is attached to its image; LATER, the compiler is at work: try again; BAD_ARGUMENT."""
         cells = (_abi.rung_forced_cell * len(values))()
         for cell, (name, value) in zip(cells, values.items()):
             cell.name, cell.owner, cell.access = _text(name), _text(owner), access
@@ -1024,7 +1031,7 @@ class Forces(_Part):
 
     @staticmethod
     def _given(value):
-        """For a program that does not run yet: its cells are not looked at here."""
+        """The value for a program that is not running yet, whose cells are not looked up here."""
         if isinstance(value, float):
             return _abi.rung_value(real=value)
         return _abi.rung_value(integer=_integer(value, -1 << 63, (1 << 64) - 1))

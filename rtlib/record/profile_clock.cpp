@@ -19,7 +19,7 @@ double nsPerTick() {
   return ticks == 0 ? 1.0 : static_cast<double>(endNs - startNs) / static_cast<double>(ticks);
 }
 
-// What generated code does for a rung without operations.
+// The measuring code of a rung without operations.
 void measureNothing(volatile rung_prof& prof) {
   prof.started = core::readTicks();
   const uint64_t ticks = core::readTicks() - prof.started;

@@ -4,8 +4,8 @@
 namespace rung::runtime {
 
 struct ProfileClock {
-  double nsPerTick = 1; // of the counter in rtlib/core/ticks.h
-  double costTicks = 0; // what an empty rung measures: it is part of every execution
+  double nsPerTick = 1; // ticks of the counter in rtlib/core/ticks.h
+  double costTicks = 0; // measured time of an empty rung, included in every execution
   double costNs() const { return nsPerTick * costTicks; }
 };
 

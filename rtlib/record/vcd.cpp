@@ -20,7 +20,7 @@ std::string codeOf(size_t index) {
   return code;
 }
 
-// Without blanks, which end a word.
+// Replaces blanks, which would end the word, and control characters.
 std::string word(std::string_view text) {
   std::string out(text);
   std::ranges::replace_if(out, [](char c) { return c == ' ' || text::isControl(c); }, '_');

@@ -1,4 +1,4 @@
-// Value change dump: what wave viewers show (IEEE 1364, clause 18). Texts are a kind of its own that GTKWave knows.
+// Writes value change dumps for wave viewers (IEEE 1364, clause 18). Texts use an extension that GTKWave supports.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -20,7 +20,7 @@ struct TracedName {
 };
 
 struct TracedValue {
-  bool known = false;   // the name is there now
+  bool known = false;   // the program has the name now
   uint64_t integer = 0; // its lowest bits
   double real = 0;
   std::string_view text;
@@ -29,11 +29,11 @@ struct TracedValue {
 class VcdWriter {
 public:
   explicit VcdWriter(std::ostream& out) : out_(out) {}
-  // Once, before the samples.
+  // To be called once, before the samples.
   void begin(std::string_view program, std::span<const TracedName> names);
-  // The values of all names at a time that is not before the last one. `lost`: scans so far that have no sample.
+  // Writes the values of all names; `us` must not decrease. `lost`: the number of scans so far without a sample.
   void sample(int64_t us, std::span<const TracedValue> values, uint64_t lost = 0);
-  // The last sample ends the picture, even if nothing has changed in it.
+  // Ends the file at the time of the last sample, even if nothing changed in it.
   void end();
 
 private:

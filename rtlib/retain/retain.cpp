@@ -22,9 +22,9 @@ namespace {
 constexpr char kMagic[] = "RUNGRET1";
 constexpr size_t kHeaderSize = 32;
 constexpr size_t kCrcAt = 28;
-constexpr uint64_t kNoGeneration = ~uint64_t{0}; // none could follow it
-constexpr size_t kMostBytes = 64 << 20;          // longer than any image
-constexpr int kRetryPeriods = 10;                // between tries on a disk that fails
+constexpr uint64_t kNoGeneration = ~uint64_t{0}; // an invalid number, because none could follow it
+constexpr size_t kMostBytes = 64 << 20;          // more than any image has
+constexpr int kRetryPeriods = 10;                // between attempts after a failure
 
 void put(std::vector<uint8_t>& to, size_t at, uint64_t value, size_t size) {
   for (size_t i = 0; i < size; ++i) to[at + i] = static_cast<uint8_t>(value >> (8 * i));
@@ -41,7 +41,7 @@ uint32_t checksum(std::span<const uint8_t> file) {
   return static_cast<uint32_t>(crc32_z(crc32_z(0, file.data(), kCrcAt), contents.data(), contents.size()));
 }
 
-// One of the two files, as found.
+// The contents of one of the two files.
 struct Found {
   bool good = false; // whole and intact
   uint64_t layoutHash = 0;
@@ -117,7 +117,7 @@ RetainImage RetainStore::load() {
     return image;
   }
   generation_ = newest.generation;
-  // An older image of this layout would be out of date by everything that the other program did: not taken.
+  // An older image of this layout is not taken, because it misses all changes by the other program.
   if (newest.layoutHash != layout_.hash || newest.image.size() != size_) {
     image.report += (image.report.empty() ? "" : "; ") + base_ + (newestIsB_ ? ".b" : ".a") +
                     ": made by a program with other retained cells";
@@ -208,7 +208,7 @@ void RetainSaver::take(RetainChannel& channel) {
   pending_.ticket = offer.ticket;
 }
 
-// The present channel is asked for first: another program may take over meanwhile, and then it is the former one.
+// The present channel is loaded first: if another program takes over meanwhile, that channel becomes the former one.
 void RetainSaver::takeOffered() {
   RetainChannel& current = *current_.load(std::memory_order_acquire);
   RetainChannel* former = former_.load(std::memory_order_acquire);
@@ -216,7 +216,7 @@ void RetainSaver::takeOffered() {
   take(current);
 }
 
-// A failed save may have replaced the file all the same: what is on disk is not known then.
+// A failed save may have replaced the file nevertheless, so the contents on disk are unknown then.
 bool RetainSaver::save(std::string& error) {
   if (onDiskKnown_ && onDiskLayout_ == pending_.layout.hash && pending_.bytes == onDisk_) return true;
   onDiskKnown_ = false;
@@ -253,11 +253,11 @@ void RetainSaver::settle() noexcept {
   RetainChannel* former = former_.load(std::memory_order_acquire);
   try {
     takeOffered();
-  } catch (const std::exception& thrown) { // out of memory: what was offered last is lost
+  } catch (const std::exception& thrown) { // out of memory: the last offer is lost
     problem_.set(thrown.what());
     failing_.store(true, std::memory_order_release);
   }
-  former_.compare_exchange_strong(former, nullptr); // another may have become it meanwhile
+  former_.compare_exchange_strong(former, nullptr); // another channel may have become the former one meanwhile
 }
 
 void RetainSaver::abandon() noexcept {

@@ -1,6 +1,6 @@
 // The retained memory on disk. Two files, BASE.a and BASE.b, are written in turn; each has a generation number, its
-// layout and a checksum, and is replaced as a whole (write, fsync, rename), so a crash at any moment leaves a good
-// one. BASE.lock keeps a second process out.
+// layout and a checksum, and is replaced as a whole (write, fsync, rename), so a crash at any moment leaves a good one.
+// BASE.lock excludes other processes.
 #pragma once
 #include <atomic>
 #include <chrono>
@@ -23,28 +23,29 @@ namespace rung::runtime {
 
 struct RetainImage {
   bool found = false;      // false: start cold
-  std::string description; // not found, but an image of another layout, which has this: `bytes` are its
+  std::string description; // not found, but an image of another layout: its description; `bytes` is that image
   std::vector<uint8_t> bytes;
   uint64_t generation = 0;
-  std::string report; // what was wrong with the files, "" when nothing was; nor is a first start
+  std::string report; // errors of the files; "": none, or the first start
 };
 
-// Where images are kept. Blocks: not for the scan thread.
+// The storage of images. Blocks: not for the scan thread.
 class RetainTarget {
 public:
   virtual ~RetainTarget() = default;
-  // True: the image, of a program with this layout, is kept, whatever happens now. False: `error` says what was not
+  // Stores the image of a program with this layout. True: it is stored durably. False: `error` says what was not
   // written and why.
   virtual bool save(std::span<const uint8_t> bytes, const RetainLayout& layout, std::string& error) = 0;
 };
 
 class RetainStore final : public RetainTarget {
 public:
-  // `base` is a path without ending; bytes saved under another layout or size are not `found`. The disk outlives it.
+  // `base` is a path without extension; an image of another layout or size is not `found`. The disk outlives this
+  // object.
   RetainStore(std::string base, RetainLayout layout, uint32_t size, Disk& disk = systemDisk());
 
-  // From now until this store ends no other store saves here, in any process. A caller that loads in order to save
-  // later locks first; `save` does it too. False: `error` says why.
+  // Locks the files until this store ends, so that no other store of any process saves here. A caller that loads in
+  // order to save later must lock first; `save` locks, too. False: `error` says why.
   bool lock(std::string& error);
   RetainImage load();
   bool save(std::span<const uint8_t> bytes, std::string& error) { return save(bytes, layout_, error); }
@@ -56,55 +57,56 @@ private:
   uint32_t size_;
   Disk* disk_;
   std::unique_ptr<Disk::Lock> lock_;
-  bool usedBefore_ = false; // the lock was there: so were images
+  bool usedBefore_ = false; // the lock file existed, so images did
   uint64_t generation_ = 0; // of the newest good file
   bool newestIsB_ = true;
   bool looked_ = false; // generation_ and newestIsB_ are known
 };
 
-// What the scan thread copies for the saver, of one program: its bytes, and how they become an image.
+// The channel from the scan thread to the saver for one program: the copied bytes, and their conversion to an image.
 class RetainChannel {
 public:
-  // How the bytes that were copied in the scan become the image; runs on the saver's thread.
+  // Converts the bytes copied in the scan to the image; runs on the saver's thread.
   using Pack = std::function<void(std::span<const uint8_t> raw, std::span<uint8_t> image)>;
 
   RetainChannel(RetainLayout layout, uint32_t rawSize, uint32_t imageSize, Pack pack);
-  // Of the retained memory of an instance.
+  // For the retained memory of an instance.
   explicit RetainChannel(const RetainMap& map);
 
 private:
   friend class RetainSaver;
-  // Forgets what was offered to another saver.
+  // Forgets offers to another saver.
   void enter(int64_t saver) noexcept;
 
   struct Offer {
     std::vector<uint8_t> raw;
-    uint64_t ticket = 0; // 0: nothing was offered
+    uint64_t ticket = 0; // 0: no offer yet
   };
 
   RetainLayout layout_;
   uint32_t imageSize_;
   Pack pack_;
   core::Newest<Offer> offers_;
-  uint64_t newest_ = 0; // ticket of the last offer; the scan thread's
+  uint64_t newest_ = 0; // ticket of the last offer; scan thread
   int64_t saver_ = 0;   // RetainSaver::begun_
 };
 
-// Takes images from the scan thread and saves them on its own. `offer` copies and returns at once, whatever the saver
-// is doing; of several images the newest is saved, of whichever program it is. An image like the last one is not
-// written again. One that could not be saved is kept, and tried again until it is on disk or a newer one comes.
+// Takes images from the scan thread and saves them on a thread of its own. `offer` copies and returns at once, whatever
+// the saver is doing; of several images the newest is saved, whichever program it belongs to. An image equal to the
+// last one is not written again. An image that could not be saved is kept, and tried again until it is on disk or a
+// newer one arrives.
 class RetainSaver {
 public:
-  // Looks for images once a `period`, because waking it would cost the scan thread a system call. 0: it has no thread,
-  // and looks where that is asked for.
+  // The thread looks for images once per `period`, because waking it would cost the scan thread a system call. 0: there
+  // is no thread, and only `look` looks.
   RetainSaver(std::unique_ptr<RetainTarget> target, std::unique_ptr<RetainChannel> channel,
               std::chrono::milliseconds period);
-  ~RetainSaver(); // tries to save what was offered last
+  ~RetainSaver(); // tries to save the last offer
   RetainSaver(const RetainSaver&) = delete;
   RetainSaver& operator=(const RetainSaver&) = delete;
 
-  // Scan thread. `copy` fills a span of rawSize bytes; it allocates nothing and does not throw. The image's ticket:
-  // they grow from 1.
+  // Scan thread. `copy` fills a span of rawSize bytes; it must not allocate or throw. Returns the image's ticket;
+  // tickets increase from 1.
   template <class Copy>
   uint64_t offerFrom(Copy copy) noexcept {
     RetainChannel::Offer& offer = channel_->offers_.back();
@@ -116,11 +118,11 @@ public:
   uint64_t offer(const Instance& instance) noexcept {
     return offerFrom([&](std::span<uint8_t> to) { instance.copyRetained(to); });
   }
-  // The saver has seen what was offered last: a copy is worth its time again.
+  // Scan thread: whether the saver has taken the last offer, so that a further copy is useful.
   bool taken() const noexcept { return channel_->offers_.taken(); }
-  // Another program has taken over: what is offered from now on goes through its channel. What was offered last, of
-  // whichever program of before, is saved all the same, until there is something newer. `channel` gets the former
-  // channel; it must not end before `settle` has returned.
+  // Scan thread: another program has taken over, and further offers go through its channel. The last offer of a former
+  // program is still saved, unless there is a newer one. `channel` receives the former channel, which must exist until
+  // `settle` has returned.
   void swapChannel(std::unique_ptr<RetainChannel>& channel) noexcept {
     channel->enter(begun_);
     if (channel_->newest_ > formerNewest_) {
@@ -133,27 +135,27 @@ public:
 
   // Any thread, without a lock.
   uint64_t stored() const noexcept { return stored_.load(std::memory_order_acquire); } // ticket of the newest on disk
-  bool failing() const noexcept { return failing_.load(std::memory_order_acquire); }   // the last try went wrong
+  bool failing() const noexcept { return failing_.load(std::memory_order_acquire); }   // the last attempt failed
   uint64_t saved() const noexcept { return saved_.load(std::memory_order_relaxed); }   // images written
-  uint64_t failed() const noexcept { return failed_.load(std::memory_order_relaxed); } // tries that went wrong
-  // Why the last failed try failed; the number of characters, 0 while it changes.
+  uint64_t failed() const noexcept { return failed_.load(std::memory_order_relaxed); } // failed attempts
+  // Why the last failed attempt failed. Returns the number of characters; 0 while the text changes.
   size_t problem(std::span<char> to) const noexcept { return problem_.read(to); }
 
-  // Not in a scan, any thread. Saves what was offered last, where that is not on disk.
+  // Any thread, not in a scan. Saves the last offer, if it is not on disk.
   void look() noexcept;
-  // The saver has all that it needs of the channel of before, and uses it no more.
+  // Any thread, not in a scan. On return the saver no longer uses the former channel.
   void settle() noexcept;
-  // As `look`. True: what was offered last is on disk.
+  // As `look`. True: the last offer is on disk.
   bool flush() noexcept {
     look();
     return !failing();
   }
-  // The power is gone: nothing more is saved.
+  // The power has failed: nothing more is saved.
   void abandon() noexcept;
   std::string problem() const;
 
 private:
-  struct Image { // that is to be on disk
+  struct Image { // the image to be saved
     uint64_t ticket = 0;
     RetainLayout layout{0};
     std::vector<uint8_t> bytes;
@@ -164,15 +166,15 @@ private:
   bool save(std::string& error);
 
   std::unique_ptr<RetainTarget> target_;
-  int64_t begun_;                          // in ns: no other saver of the process has the same
-  std::unique_ptr<RetainChannel> channel_; // the scan thread's
+  int64_t begun_;                          // start time in ns; unique among the savers of the process
+  std::unique_ptr<RetainChannel> channel_; // scan thread
   std::atomic<RetainChannel*> former_{
-      nullptr}; // for the saver: one of before with the newest offer, and the present one
+      nullptr}; // for the saver: the former channel with the newest offer; current_: the present one
   std::atomic<RetainChannel*> current_;
-  uint64_t lastTicket_ = 0, formerNewest_ = 0; // the scan thread's
-  std::mutex looking_;                         // held while a thread looks
+  uint64_t lastTicket_ = 0, formerNewest_ = 0; // scan thread
+  std::mutex looking_;                         // held while a thread looks for images
   Image pending_;
-  std::vector<uint8_t> onDisk_; // where it is known
+  std::vector<uint8_t> onDisk_; // the image on disk, if known
   uint64_t onDiskLayout_ = 0;
   bool onDiskKnown_ = false;
   bool abandoned_ = false; // under looking_

@@ -1,4 +1,4 @@
-// From the tables of a program to the description of what is kept.
+// Makes the description of the retained cells from a program's tables.
 #include "rtlib/retain/retained_cells.h"
 
 #include <zlib.h>
@@ -94,7 +94,7 @@ RetainLayout retainLayoutOf(const rung_program& program, std::span<const RetainR
   return {hashOf(description.text()), compressed(description.text())};
 }
 
-// The map of kept bytes.
+// The map of retained bytes.
 
 RetainMap::RetainMap(const rung_program& program)
     : pieces_(piecesOf(program)), layout_(retainLayoutOf(program, runsOf(pieces_))) {

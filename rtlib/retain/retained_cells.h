@@ -4,8 +4,8 @@
 // A description is a compressed text, after its uncompressed length in four bytes, low byte first. The first word of a
 // line says what it is; its fields are separated by tabs:
 //   dialect NAME · space NAME FLAGS BYTES · kept SPACE FIRST COUNT · cell NAME SPACE BYTE BIT TYPE COUNT REACH
-// Spaces are numbered in their order; BYTES counts up to the last retained one. An image consists of the bytes of each
-// `kept` line, in their order. Cells are those that are retained completely, sorted by name.
+// Spaces are numbered in order; BYTES counts up to the last retained byte. An image consists of the bytes of each
+// `kept` line, in order. Only cells that are retained completely are listed, sorted by name.
 #pragma once
 #include <cstdint>
 #include <span>
@@ -17,7 +17,7 @@
 
 namespace rung::runtime {
 
-// How an image is laid out.
+// The layout of an image.
 struct RetainLayout {
   RetainLayout(uint64_t hashGiven, std::string descriptionGiven = {}) // NOLINT(google-explicit-constructor)
       : hash(hashGiven), description(std::move(descriptionGiven)) {}
@@ -39,9 +39,9 @@ bool isKept(std::span<const RetainRun> runs, uint32_t space, uint64_t firstBit, 
 // The layout for a program and its retained bytes, in the order of the image.
 RetainLayout retainLayoutOf(const rung_program& program, std::span<const RetainRun> runs);
 
-// The retained parts of a program's memory, by the addresses of the dialect (K0 to K31 and so on), whatever
-// representation the layout has chosen for them. So an image fits every program of the dialect that retains the same
-// cells at the same addresses.
+// The retained parts of a program's memory by the addresses of the dialect (K0 to K31 and so on), independent of their
+// representation in memory. So an image fits every program of the dialect that retains the same cells at the same
+// addresses.
 
 class RetainMap {
 public:
@@ -61,7 +61,7 @@ private:
     uint32_t space;
     uint32_t first; // logical
     uint32_t bytes; // logical
-    bool expanded;  // raw holds a byte a bit
+    bool expanded;  // raw holds a byte for each bit
   };
   static std::vector<Piece> piecesOf(const rung_program& program);
   static std::vector<RetainRun> runsOf(const std::vector<Piece>& pieces);

@@ -1,4 +1,4 @@
-// Load, offer, finish.
+// Loading, offering and saving at the end.
 #include "rtlib/retain/retained_memory.h"
 
 #include <zlib.h>
@@ -16,7 +16,7 @@ namespace rung::runtime {
 
 namespace {
 
-// A program that asks waits for the answer.
+// The period is short for requests, because the program waits for the answer.
 std::chrono::milliseconds periodOf(RetainWhen when) {
   return std::chrono::milliseconds(when == RetainWhen::OnRequest ? 5 : 200);
 }
@@ -72,15 +72,15 @@ std::string RetainedMemory::finish(const Instance& instance) {
   return saver_->flush() ? std::string() : saver_->problem();
 }
 
-// From one description to another.
+// Conversion between descriptions.
 
 namespace {
 
-constexpr size_t kMostText = 4 << 20;     // of a description
+constexpr size_t kMostText = 4 << 20;     // maximum length of a description
 constexpr uint64_t kMostBytes = 1 << 20;  // of all spaces: planning a transfer takes 32 bytes for each
-constexpr uint64_t kMostLooks = 64 << 20; // for cells in runs
+constexpr uint64_t kMostLooks = 64 << 20; // limit of comparisons of cells with runs
 
-// The fields of a line, one after the other.
+// Reads the fields of a line in order.
 class Fields {
 public:
   explicit Fields(std::string_view line) : rest_(line) {}
@@ -96,7 +96,7 @@ public:
     good_ = good_ && value.has_value();
     return value.value_or(0);
   }
-  // So far they were what they should be; none is left.
+  // Whether all fields were valid, and none is left.
   bool good() const { return good_ && rest_.empty(); }
 
 private:
@@ -104,7 +104,7 @@ private:
   bool good_ = true;
 };
 
-// What a description says.
+// The contents of a description.
 struct Cells {
   struct Space {
     std::string name;
@@ -126,8 +126,8 @@ struct Cells {
 
   std::string dialect;
   std::vector<Space> spaces;
-  std::vector<RetainRun> runs; // by number in `spaces`
-  std::vector<Cell> cells;     // by name
+  std::vector<RetainRun> runs; // `space` is an index in `spaces`
+  std::vector<Cell> cells;     // sorted by name
 };
 
 std::optional<Cells> read(std::string_view description) {
@@ -172,7 +172,7 @@ bool Cells::readText(std::string_view text) {
   return true;
 }
 
-// As the tables of a program are that has passed its check.
+// Whether the contents are as valid as the tables of a program that has passed its check.
 bool Cells::isSound() const {
   uint64_t bytes = 0;
   for (const Space& space : spaces) bytes += space.bytes;
@@ -189,9 +189,9 @@ bool Cells::isSound() const {
          std::ranges::is_sorted(cells, {}, &Cell::name);
 }
 
-// ---- from one to another -----------------------------------------------------------------------------------------
+// ---- conversion --------------------------------------------------------------------------------------------------
 
-// The cells as a program without code, whose spaces lie one after the other; and a block for it.
+// The cells as a program without code, whose spaces are adjacent, and a memory block for it.
 class Tables {
 public:
   explicit Tables(const Cells& cells) : cells_(cells) {
@@ -234,7 +234,7 @@ public:
       from += run.count;
     }
   }
-  // The kept bytes of another one at the same addresses.
+  // Copies the retained bytes of `other` at the same addresses.
   void fillSame(const Tables& other) {
     for (const RetainRun& run : other.cells_.runs) {
       const std::string& name = other.cells_.spaces[run.space].name;
@@ -265,7 +265,7 @@ private:
 
 } // namespace
 
-// What goes by address, and was not kept of the former program, is to be as it is at first.
+// Cells found by address that the former program did not retain get their initial contents.
 RetainedTaken takeRetained(std::string_view now, std::string_view former, std::span<const uint8_t> image,
                            std::span<const uint8_t> initial) {
   const std::optional<Cells> cells = read(now);
@@ -285,7 +285,7 @@ RetainedTaken takeRetained(std::string_view now, std::string_view former, std::s
 
 namespace {
 
-constexpr size_t kListed = 8; // changes in a report
+constexpr size_t kListed = 8; // maximum number of changes in a report
 
 std::string textOf(const std::vector<StateChange>& changes) {
   std::string text;

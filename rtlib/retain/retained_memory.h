@@ -34,7 +34,7 @@ void takeRetainedOf(const rung_program& program, const RetainMap& map, RetainIma
 // runs and at its end. The files FILE.a and FILE.b (see retain.h) are ordered by the dialect's addresses (RetainMap);
 // contents of another program are taken by name and address (takeRetained).
 //
-// Only whole scans are saved: what a fault leaves of an interrupted scan never reaches the disk.
+// Only whole scans are saved: the contents of a scan that a fault has interrupted never reach the disk.
 
 enum class RetainWhen : uint8_t {
   Always,    // after every scan
@@ -58,8 +58,8 @@ public:
   // Whether there was an image which `load` could not take, not even as that of another program.
   bool lost() const noexcept { return lost_; }
 
-  // Scan thread, after every slice: copies what is to be saved; never waits, and allocates nothing. `asked`: the
-  // program requests saving. True, once for each request: what was copied after the request is on disk.
+  // Scan thread, after every slice: copies the bytes to be saved; never waits, and allocates nothing. `asked`: the
+  // program requests saving. True, once for each request: the bytes copied after the request are on disk.
   bool offer(const Instance& instance, bool asked) noexcept;
 
   // Scan thread, after another program has taken over: `channel` is that program's, and receives the former one, which

@@ -1,4 +1,4 @@
-// What of a program is in its footprint, and reading it (see footprint.h).
+// Determines the footprint of a program, and reads it (see footprint.h).
 #include "rtlib/run/footprint.h"
 
 #include <algorithm>
@@ -13,10 +13,10 @@ namespace {
 
 struct Part {
   uint32_t first;
-  uint32_t end; // after the last one
+  uint32_t end; // one past the last
 };
 
-// Of a block of so many bytes.
+// Parts of a block of `size` bytes.
 class Parts {
 public:
   explicit Parts(uint32_t size) : size_(size) {}
@@ -44,7 +44,7 @@ private:
   std::vector<Part> parts_; // in lines
 };
 
-// What belongs to no space is the compiler's own: states of instructions, registers.
+// Bytes outside all spaces belong to the compiler: states of instructions, registers.
 void addOwnState(const rung_program& program, Parts& parts) {
   std::vector<Part> ranges;
   for (const rung_space& space : std::span(program.spaces, program.space_count))
@@ -100,7 +100,7 @@ std::vector<std::span<const uint8_t>> tablesOf(const rung_program& program) {
 
 struct Sought {
   uintptr_t address = 0;
-  uintptr_t end = 0; // of the segment that has it; 0: none
+  uintptr_t end = 0; // end of the segment that contains it; 0: none
 };
 
 int findSegment(dl_phdr_info* object, size_t, void* data) {
@@ -114,7 +114,7 @@ int findSegment(dl_phdr_info* object, size_t, void* data) {
   return sought.end != 0 ? 1 : 0;
 }
 
-// Of a shared object that has no code but its program's.
+// The code of a shared object that contains only the program's code.
 std::span<const uint8_t> codeOf(const rung_program& program) {
   if (program.chunk_count == 0) return {};
   const auto addressOf = [](rung_chunk_fn function) { return reinterpret_cast<uintptr_t>(function); };
@@ -129,7 +129,7 @@ std::span<const uint8_t> codeOf(const rung_program& program) {
 class Prefetcher {
 public:
   explicit Prefetcher(int64_t untilNs) noexcept : untilNs_(untilNs) {}
-  // False: the time is over.
+  // False: the time has run out.
   bool prefetch(std::span<const uint8_t> bytes) noexcept {
     const auto begin = reinterpret_cast<uintptr_t>(bytes.data());
     for (size_t at = 0; at < bytes.size(); at += Footprint::kLine - (begin + at) % Footprint::kLine) {
@@ -140,7 +140,7 @@ public:
   }
 
 private:
-  // Processors wait for all loads before they read the clock.
+  // Lines per clock reading, because processors complete all loads before they read the clock.
   static constexpr uint32_t kLinesALook = 32;
   int64_t untilNs_;
   uint32_t lines_ = 0;
@@ -153,7 +153,7 @@ Footprint::Footprint(const rung_program& program, bool inFile)
   if (inFile) code_ = codeOf(program);
 }
 
-// What is needed first goes first.
+// Reads in the order in which a scan needs the parts.
 void Footprint::prefetch(const uint8_t* memory, int64_t untilNs) const noexcept {
   Prefetcher prefetcher(untilNs);
   for (const std::span<const uint8_t> table : tables_)

@@ -159,7 +159,7 @@ void Instance::clearProfile() { std::fill(loaded_.profile.begin(), loaded_.profi
 
 namespace {
 
-// The same fault in the tables of another program. What that does not have is left open.
+// The same fault in the tables of another program. Fields that it does not have are unset.
 rung_fault translated(const rung_fault& fault, const rung_program& from, const rung_program& to) {
   if (fault.code == RUNG_NONE) return fault;
   const bool isHosts = fault.code == core::kOverrunFault || fault.code == core::kMaxTimeFault;
@@ -186,12 +186,12 @@ bool Instance::servicesAgree(const rung_program& next) const {
 ReplaceResult Instance::replace(Replacement& replacement, OwnContents own) {
   const rung_program& former = program();
   if (&replacement.transfer().from() != &former) return ReplaceResult::OtherProgram;
-  if (!faulted()) { // after a fault the next that comes is a power-on, for which nothing waits
+  if (!faulted()) { // after a fault the next step is a power-on, which needs no waiting
     if (!atListStart()) return ReplaceResult::WithinScan;
     if (!servicesAgree(replacement.next())) return ReplaceResult::RequestsWait;
     if (replacement.transfer().waiting(loaded_.block.get()) != nullptr) return ReplaceResult::MechanismWaits;
   }
-  bringInLeftOut(); // the next program may look at it
+  bringInLeftOut(); // the next program may read it
   replacement.exchange(loaded_, own);
   runner_.setProgram(program(), loaded_.block.get(), loaded_.parts.data(), loaded_.engine, loaded_.steps.data());
   ctx_->fault = translated(ctx_->fault, former, program());
@@ -233,7 +233,7 @@ void Instance::sliceToFast() {
 void Instance::runFor(int64_t us) {
   const int64_t end = nowUs() + us;
   int64_t before = nowUs() - 1;
-  while (nowUs() < end && nowUs() > before && !faulted()) { // a schedule that takes no time ends it too
+  while (nowUs() < end && nowUs() > before && !faulted()) { // a schedule that takes no time also ends the loop
     before = nowUs();
     scan();
   }

@@ -87,7 +87,7 @@ public:
   const core::NeededCopies& neededCopies() const noexcept { return loaded_.neededCopies; }
   const std::shared_ptr<const CopyLists>& copyLists() const noexcept { return loaded_.copyLists; }
 
-  // Initializes the memory as the program's tables say, empties the queues, clears the fault, and sets the schedule to
+  // Initializes the memory from the program's tables, empties the queues, clears the fault, and sets the schedule to
   // its beginning; clock and profile continue. The host's side of the queues may be used at the same time.
   void coldStart();
   // The same as coldStart, except that the retained spans keep their contents.
@@ -99,7 +99,8 @@ public:
   // and cells that only that program has begin as `own` says. If the result is not Replaced, nothing has happened.
   // Allocates nothing, except in onReplace.
   ReplaceResult replace(Replacement& replacement, OwnContents own = OwnContents::Initial);
-  // The number of programs that have taken over: what was looked up under another number has to be looked up again.
+  // The number of programs that have taken over. Places that were looked up under another number must be looked up
+  // again.
   uint32_t generation() const { return generation_; }
 
   // Run the schedule from its present position to its end (scan) or to the end of a slot; fast runs the fast list once.

@@ -17,7 +17,7 @@ uint32_t bytesFor(const Runnable& runnable, uint32_t leastBytes) {
   return runnable.memory != nullptr ? size : std::max(size + size / 8, leastBytes);
 }
 
-// At least a cache line.
+// Aligned to at least a cache line.
 uint32_t alignOf(const rung_program& program) { return std::max(program.memory_align, 64u); }
 
 std::unique_ptr<uint8_t, LoadedProgram::FreeBlock> blockFor(const Runnable& runnable, uint32_t bytes) {
@@ -55,14 +55,14 @@ void LoadedProgram::clear() noexcept {
     std::memcpy(block.get() + program->inits[i].offset, program->inits[i].data, program->inits[i].size);
 }
 
-// What of each copy is needed.
+// The needed parts of each copy.
 
 namespace {
 
-constexpr uint32_t kLeast = 256; // bytes: shorter copies stay whole, as does a program that does not say what it reads
-constexpr uint32_t kPiece = 64;  // bytes that are needed or not together: a line of the runner's loops
+constexpr uint32_t kLeast = 256; // bytes: shorter copies stay whole, as do those of a program without `reads`
+constexpr uint32_t kPiece = 64;  // bytes that are kept or left out together: a line of the runner's loops
 
-// Of a copy.
+// A part of a copy.
 struct Part {
   uint32_t first = 0;
   uint32_t end = 0;
@@ -73,8 +73,8 @@ bool any(const std::vector<bool>& bytes, uint32_t first, uint32_t end) {
   return first < end;
 }
 
-// The pieces with needed bytes that come after `part`, as long as no more than one in between has none. False: there
-// are none.
+// Finds the next pieces with needed bytes after `part`, with gaps of at most one piece between them. False: there are
+// none.
 bool next(const rung_copy& copy, const std::vector<bool>& needed, uint32_t at, Part& part) {
   Part found{part.end, part.end};
   for (uint32_t first = part.end; first < copy.size; first += kPiece) {
@@ -100,7 +100,7 @@ void addPart(std::vector<rung_copy>& list, rung_copy copy, const Part& part) {
   list.push_back(copy);
 }
 
-// What the runs of a task read has at least what its copies take.
+// Whether the program has lists of what its tasks read; a task with input copies then has a list that is not empty.
 bool saysWhatItReads(const rung_program& program) {
   return std::ranges::all_of(std::span(program.tasks, program.task_count),
                              [](const rung_task& task) { return task.begin_count == 0 || task.read_count != 0; });
@@ -149,7 +149,7 @@ core::NeededCopies::Range CopyLists::add(std::span<const rung_copy> copies) {
 
 void CopyLists::addWhole(const rung_copy& copy) {
   Part part;
-  uint32_t end = 0; // of what is in a list
+  uint32_t end = 0; // end of the part that is already in a list
   while (next(copy, touched_, copy.to, part)) {
     addPart(leftOut_, copy, {end, part.first});
     addPart(copies_, copy, part);
@@ -158,13 +158,13 @@ void CopyLists::addWhole(const rung_copy& copy) {
   addPart(leftOut_, copy, {end, copy.size});
 }
 
-// Where no chunk writes the mask, it is empty.
+// Parts of the mask that no chunk writes are always empty.
 void CopyLists::addMasked(const rung_copy& copy) {
   Part part;
   while (next(copy, written_, copy.mask, part)) addPart(copies_, copy, part);
 }
 
-// Which places are overwritten, from the tables of the program.
+// Finds overwritten places in the tables of the program.
 
 namespace {
 
@@ -185,8 +185,8 @@ uint32_t byteCount(const Ref& ref) {
 
 } // namespace
 
-// The input copy that ends in the byte of the memory block; null: none does. A place that the task gives back at its
-// end (registers that an interrupting task saves) is not overwritten.
+// The input copy that writes this byte of the memory block; null if there is none. A place that the task restores at
+// its end (registers saved by an interrupting task) is not overwritten.
 const rung_copy* Overwritten::over(uint32_t offset) const {
   for (const rung_task& task : std::span(program_->tasks, program_->task_count)) {
     const std::span end(program_->copies + task.end_first, task.end_count);

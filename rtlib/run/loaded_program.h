@@ -30,8 +30,8 @@ private:
   void addMasked(const rung_copy& copy);
 
   uint32_t least_; // bytes: shorter copies stay whole
-  Bytes written_;  // by chunks
-  Bytes touched_;  // or read, by chunks or copies
+  Bytes written_;  // bytes that chunks write
+  Bytes touched_;  // bytes that chunks or copies read or write
   std::vector<rung_copy> copies_;
   std::vector<core::NeededCopies::Task> tasks_;
   std::vector<rung_copy> leftOut_;
@@ -42,7 +42,7 @@ private:
 
 class Overwritten {
 public:
-  explicit Overwritten(const rung_program& program) : program_(&program) {} // which outlives it
+  explicit Overwritten(const rung_program& program) : program_(&program) {} // which outlives this object
 
   // The place that is copied over `ref`; nothing when a value written to `ref` lasts. Allocates nothing.
   std::optional<Ref> source(const Ref& ref) const;
@@ -53,24 +53,23 @@ private:
   const rung_program* program_;
 };
 
-// LoadedProgram: a program together with the memory that one instance of it needs; replacing a program replaces this.
-
-// What an instance runs. The members outlive the instance, and the program has passed checkProgram.
+// A program for an instance. The members outlive the instance, and the program has passed checkProgram.
 struct Runnable {
   const rung_program& program;
   void* engine = nullptr; // rung_ctx::engine of its chunks
-  uint8_t* memory =
-      nullptr; // the memory block, of core::Memory::kLeastBlock bytes at least; null: of the instance's own
-  // Names and numbers of the program's services, which outlive the instance's queue of requests; null: it makes none.
+  // The memory block, of at least core::Memory::kLeastBlock bytes; null: the instance allocates it.
+  uint8_t* memory = nullptr;
+  // Names and kinds of the program's services, which outlive the instance's queue of requests; null: its requests have
+  // no names.
   const core::ServiceName* services = nullptr;
 };
 
-// A program with all the memory that one instance of it needs. Its memory block holds the initial contents.
+// A program with all the memory that one instance of it needs; replacing a program replaces this object. The
+// constructor fills the memory block with the initial contents.
 struct LoadedProgram {
-  // If the memory block belongs to the instance, it has `leastBytes` or more, so that a program that has grown fits
-  // into it.
+  // A memory block that the instance allocates has at least `leastBytes` bytes, so that a longer program fits in it.
   explicit LoadedProgram(const Runnable& runnable, uint32_t leastBytes = 0);
-  void clear() noexcept; // memory as the program's tables say
+  void clear() noexcept; // resets the memory to its initial contents
   // For rung_ctx::prof.
   rung_prof* counters() noexcept { return profile.empty() ? nullptr : profile.data(); }
 
@@ -81,14 +80,14 @@ struct LoadedProgram {
   const rung_program* program;
   void* engine;
   const core::ServiceName* services;
-  uint32_t blockBytes; // the block has so many, of which the program needs its memory_size
+  uint32_t blockBytes; // size of the block; the program uses its memory_size
   std::unique_ptr<uint8_t, FreeBlock> block;
-  std::vector<rung_prof> profile;     // one a rung; empty when the program is not instrumented
-  std::vector<core::PartState> parts; // one a task
-  std::vector<rung_step> steps;       // room for the steps of a scan
-  std::vector<uint8_t> retained;      // room for a warm start
+  std::vector<rung_prof> profile;     // one for each rung; empty if the program is not instrumented
+  std::vector<core::PartState> parts; // one for each task
+  std::vector<rung_step> steps;       // storage for the joined steps of a scan
+  std::vector<uint8_t> retained;      // storage for a warm start
   Overwritten overwritten;
-  // The lists for copies; they leave nothing out in a block of the caller's, because the caller may look at all of it.
+  // The lists of copies; nothing is left out in a block that belongs to the caller, who may access all of it.
   std::shared_ptr<const CopyLists> copyLists;
   core::NeededCopies neededCopies; // views of copyLists
 };

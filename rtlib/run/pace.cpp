@@ -1,4 +1,4 @@
-// The bound on what a program catches up (see pace.h).
+// Bounded catching up of late scans (see pace.h).
 #include "rtlib/run/pace.h"
 
 #include <algorithm>

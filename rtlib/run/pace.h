@@ -48,10 +48,10 @@ private:
 
   Instance& instance_;
   PaceOptions options_;
-  uint32_t overruns_ = 0; // in a row
+  uint32_t overruns_ = 0; // in succession
   bool overloaded_ = false;
   int64_t passUs_ = 0;
-  int64_t lagNs_ = 0; // of the program's clock
+  int64_t lagNs_ = 0; // how late the program's clock is
   uint64_t missed_ = 0;
 };
 

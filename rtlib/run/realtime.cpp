@@ -68,7 +68,7 @@ void becomeHelper() noexcept {
 
 namespace {
 
-// A step is measured from its due time, however long before that the thread wakes.
+// Waits for the due time of a step, from which the step is measured, however early the thread wakes.
 void waitFor(Steps& steps, int64_t dueNs, int64_t earlyNs) noexcept {
   sleepUntil(dueNs - earlyNs);
   if (earlyNs == 0) return;
@@ -106,7 +106,7 @@ private:
   Instance& instance_;
   const std::function<void()>& slice_;
   const std::function<bool()>& keepGoing_;
-  Pace pace_{instance_, {.mostOverruns = 0}}; // a person sees how many were missed
+  Pace pace_{instance_, {.mostOverruns = 0}}; // the user sees the number of missed scans
   int64_t begunNs_ = 0;                       // when the last step began
   RealTimeStats stats_;
 };

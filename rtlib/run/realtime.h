@@ -1,5 +1,5 @@
-// The real-time loop, on the machine's CLOCK_MONOTONIC: of rung-run's scan thread, and of an instance by itself. What
-// is late of a program's schedule is caught up, or left out, by pace.h.
+// The real-time loop on CLOCK_MONOTONIC, for rung-run's scan thread and for a single instance. Late scans of a program
+// are caught up or skipped by pace.h.
 #pragma once
 #include <sched.h>
 
@@ -29,7 +29,7 @@ public:
   RealTimeThread(const RealTimeThread&) = delete;
   RealTimeThread& operator=(const RealTimeThread&) = delete;
 
-  // "", or what the system does not grant, why, and how to get it.
+  // What the system does not grant, why, and how to get it; or "".
   const std::string& problem() const { return problem_; }
 
 private:
@@ -49,24 +49,25 @@ void becomeHelper() noexcept;
 struct Step {
   int64_t beginNs = 0;  // since the loop began
   int64_t periodNs = 0; // since the beginning of the step before
-  int64_t lateNs = 0;   // after it was due
+  int64_t lateNs = 0;   // delay after the due time
   int64_t tookNs = 0;
 };
 
-// What is done in steps, all in the thread of the loop.
+// The work that a loop does in steps; all functions are called in the thread of the loop.
 class Steps {
 public:
   virtual ~Steps() = default;
-  // When the next step is due, after one that was due then and has ended now; first, with the beginning of the loop.
+  // The due time of the next step, after a step that was due at `dueNs` and has ended at `nowNs`; at first both are the
+  // beginning of the loop.
   virtual int64_t dueAfter(int64_t dueNs, int64_t nowNs) noexcept = 0;
-  // Where the thread wakes early: prepares the step until it is due.
+  // Prepares the step until it is due, if the thread wakes early.
   virtual void prepare(int64_t untilNs) noexcept { (void)untilNs; }
   virtual void step(int64_t nowNs, int64_t elapsedNs) = 0; // since the beginning of the step before
-  virtual void stepped(const Step& step) = 0;              // its times, once it has ended
-  virtual bool ended() = 0;                                // before each step: no more is needed
+  virtual void stepped(const Step& step) = 0;              // called after each step with its times
+  virtual bool ended() = 0;                                // asked before each step; true ends the loop
 };
 
-// In the calling thread, which wakes `earlyNs` before a step is due.
+// Runs the loop in the calling thread, which wakes `earlyNs` before a step is due.
 void runSteps(Steps& steps, int64_t earlyNs = 0);
 
 struct RealTimeStats {
@@ -76,8 +77,8 @@ struct RealTimeStats {
   int64_t maxRunNs = 0;
 };
 
-// The slices of an instance, whenever one is due, as steps: calls `slice`, which runs one, until `keepGoing`, asked
-// after every slice, says no, or a fault stops the program.
+// Runs the slices of an instance when they are due, in the calling thread: calls `slice`, which runs one, until a fault
+// stops the program or `keepGoing`, called after every slice, returns false.
 RealTimeStats runRealTime(Instance& instance, const std::function<void()>& slice,
                           const std::function<bool()>& keepGoing);
 

@@ -1,4 +1,4 @@
-// The weight of slices, and what code and copies cost (see scan_bound.h).
+// The weight of slices, and the cost of code and copies (see scan_bound.h).
 #include "rtlib/run/scan_bound.h"
 
 #include <algorithm>
@@ -16,8 +16,8 @@
 namespace rung::runtime {
 namespace {
 
-constexpr int kSweeps = 3;            // of which the fastest counts: an interruption is not the program's
-constexpr uint32_t kPieceWeight = 64; // beside which reading the clock is cheap
+constexpr int kSweeps = 3;            // the fastest one counts, to exclude interruptions
+constexpr uint32_t kPieceWeight = 64; // enough to make the cost of reading the clock negligible
 
 struct Slice {
   uint64_t weight = 0;
@@ -29,7 +29,8 @@ uint64_t timesOf(const rung_step& step, const rung_task& task) {
   return step.op == RUNG_STEP_RUN ? uint64_t{task.part_count} * step.arg : 1;
 }
 
-// What a real clock runs, from one ADVANCE to the next. What comes before the first one follows the last slice at once.
+// The slices run by a real clock, from one ADVANCE to the next. Steps before the first ADVANCE directly follow the last
+// slice.
 std::vector<Slice> slicesOf(const rung_program& program) {
   std::span<const rung_step> list(program.slices, program.slice_count);
   if (list.empty()) list = {program.scan, program.scan_count};
@@ -58,11 +59,11 @@ std::vector<Slice> slicesOf(const rung_program& program) {
   return slices;
 }
 
-// Chunks that follow one another and weigh enough together to be measured.
+// Consecutive chunks whose total weight is large enough to be measured.
 struct Piece {
   uint32_t first = 0;
   uint32_t end = 0;
-  double nsPerWeight = std::numeric_limits<double>::max(); // of the fastest sweep
+  double nsPerWeight = std::numeric_limits<double>::max(); // in the fastest sweep
 };
 
 class Measurement {
@@ -75,7 +76,7 @@ public:
     ctx_.engine = runnable.engine;
   }
 
-  // The piece that costs most for its weight: with initial contents, and with any.
+  // The piece with the highest cost per weight, with initial contents and with arbitrary ones.
   Piece dearest() {
     const core::FloatEnvironment environment(defaultFloats_);
     Piece most{.nsPerWeight = 0};
@@ -106,7 +107,7 @@ public:
         const int64_t ns = monotonicNs() - begin;
         if (slice == fastest.size()) fastest.push_back(ns);
         fastest[slice] = std::min(fastest[slice], ns);
-        if (runner.faulted()) return std::ranges::max(fastest); // a chunk that is heavier than its task's budget
+        if (runner.faulted()) return std::ranges::max(fastest); // a chunk exceeds its task's budget
       }
     }
     return std::ranges::max(fastest);
@@ -130,7 +131,7 @@ private:
     return pieces;
   }
 
-  // Each chunk by itself, as if it had been called.
+  // Runs each chunk separately, as if it had been called.
   double run(const Piece& piece) {
     uint64_t weight = 0;
     const int64_t begin = monotonicNs();
@@ -147,7 +148,7 @@ private:
     return static_cast<double>(ns) / static_cast<double>(weight);
   }
 
-  // Any contents of the spaces; always the same.
+  // Fills the spaces with arbitrary contents, which are always the same.
   void scatter() {
     uint32_t random = 1;
     for (const rung_space& space : std::span(program_.spaces, program_.space_count))

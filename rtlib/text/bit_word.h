@@ -1,4 +1,4 @@
-// A bit as a word, as people write it in scenarios and on command lines.
+// The value of a bit as a word, as in scenarios and on command lines.
 #pragma once
 #include <optional>
 #include <string_view>
@@ -7,7 +7,7 @@
 
 namespace rung::text {
 
-// on, true, off and false, in capitals, too; nothing: it is another word.
+// on, true, off or false, in any case; nothing for any other word.
 constexpr std::optional<bool> bitWord(std::string_view word) {
   if (equalsIgnoringCase(word, "on") || equalsIgnoringCase(word, "true")) return true;
   if (equalsIgnoringCase(word, "off") || equalsIgnoringCase(word, "false")) return false;

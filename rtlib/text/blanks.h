@@ -4,7 +4,7 @@
 
 namespace rung::text {
 
-// Without blanks, tabs and line ends at both ends.
+// The text without blanks, tabs and line ends at both ends.
 constexpr std::string_view trimmed(std::string_view text) {
   constexpr std::string_view kBlanks = " \t\r\n";
   const size_t first = text.find_first_not_of(kBlanks);

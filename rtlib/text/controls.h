@@ -1,5 +1,5 @@
-// Control characters of ASCII, and those of Latin-1 as UTF-8 writes them: what is quoted must do nothing to a terminal,
-// and make no lines of its own in a log.
+// Control characters of ASCII, and those of Latin-1 in UTF-8: quoted text must not affect a terminal or begin lines in
+// a log.
 #pragma once
 #include <string>
 #include <string_view>
@@ -20,7 +20,7 @@ constexpr bool hasControls(std::string_view text) {
   return false;
 }
 
-// "\x1b" in the place of ESC; the characters `kept`, such as "\n", stay.
+// Replaces control characters by escapes ("\x1b" for ESC), except the characters in `kept`, such as "\n".
 inline std::string withoutControls(std::string_view text, std::string_view kept = "") {
   constexpr char kDigits[] = "0123456789abcdef";
   std::string result;

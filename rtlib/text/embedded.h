@@ -1,5 +1,4 @@
-// Files that the build puts into a program as text (rung_embed in cmake/RungHelpers.cmake), and what is filled into
-// them.
+// Files that the build embeds in a program as text (rung_embed in cmake/RungHelpers.cmake), and marks to fill in.
 #pragma once
 #include <algorithm>
 #include <span>
@@ -13,7 +12,7 @@ struct EmbeddedFile {
   std::string_view text;
 };
 
-// The text of a file that is among them.
+// The text of the file `name`, which must be one of the files.
 inline std::string_view textOf(std::span<const EmbeddedFile> files, std::string_view name) {
   return std::ranges::find(files, name, &EmbeddedFile::name)->text;
 }
@@ -23,7 +22,7 @@ struct Mark {
   std::string_view text;
 };
 
-// The text with that of a mark in each place of {{NAME}}. What is filled in stays as it is.
+// The text with each {{NAME}} replaced by the text of that mark, which is not searched for marks.
 inline std::string filled(std::string_view text, std::span<const Mark> marks) {
   std::string out;
   for (size_t at = text.find("{{"); at != std::string_view::npos; at = text.find("{{")) {

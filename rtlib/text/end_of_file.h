@@ -1,10 +1,10 @@
-// Where a text file of DOS ends.
+// The end of DOS text files.
 #pragma once
 #include <string_view>
 
 namespace rung::text {
 
-// The text before the mark by which DOS ends a file; what follows the mark need not be text.
+// The text before the DOS end-of-file mark; bytes after it need not be text.
 constexpr std::string_view upToEndOfFile(std::string_view text) {
   constexpr char kMark = 0x1A;
   return text.substr(0, text.find(kMark));

@@ -25,7 +25,7 @@ inline std::string hexInPairs(std::string_view bytes) {
   return text;
 }
 
-// Of a number of at most eight bytes, the highest digit first.
+// A number of at most eight bytes, most significant digit first.
 inline std::string hexOfNumber(uint64_t number, uint32_t bytes) {
   uint8_t highFirst[8];
   for (uint32_t i = 0; i < bytes; ++i) highFirst[i] = static_cast<uint8_t>(number >> 8 * (bytes - 1 - i));

@@ -1,5 +1,5 @@
-// Kinds of characters of ASCII, and its capitals and small letters, whatever the locale; all other bytes stay as they
-// are.
+// Classes of ASCII characters, and conversion between upper and lower case, independent of the locale; all other bytes
+// stay unchanged.
 #pragma once
 #include <algorithm>
 #include <string>
@@ -10,7 +10,7 @@ namespace rung::text {
 constexpr bool isDigit(char c) { return c >= '0' && c <= '9'; }
 constexpr bool isLetter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 
-/// What a hexadecimal digit of either case counts; -1 for any other character.
+/// The value of a hexadecimal digit in either case; -1 for any other character.
 constexpr int hexDigit(char c) {
   if (isDigit(c)) return c - '0';
   if (c >= 'A' && c <= 'F') return c - 'A' + 10;
@@ -32,7 +32,7 @@ inline std::string lower(std::string_view text) {
   return result;
 }
 
-// As std::string_view::compare of both in capitals. Does not allocate.
+// As std::string_view::compare of both in upper case. Does not allocate.
 constexpr int compareIgnoringCase(std::string_view a, std::string_view b) {
   for (size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
     const auto x = static_cast<unsigned char>(upper(a[i])), y = static_cast<unsigned char>(upper(b[i]));
@@ -49,7 +49,7 @@ constexpr bool startsWithIgnoringCase(std::string_view text, std::string_view pr
   return equalsIgnoringCase(text.substr(0, prefix.size()), prefix);
 }
 
-// The prefix at the beginning of the text, which loses it.
+// Removes the prefix from the beginning of the text. False: the text does not begin with it.
 constexpr bool takePrefixIgnoringCase(std::string_view& text, std::string_view prefix) {
   if (!startsWithIgnoringCase(text, prefix)) return false;
   text.remove_prefix(prefix.size());

@@ -1,4 +1,4 @@
-// Numbers that a text holds. Nothing allocates.
+// Reads numbers from text. Nothing here allocates.
 #pragma once
 #include <charconv>
 #include <cmath>
@@ -11,8 +11,9 @@
 
 namespace rung::text {
 
-// The number that the text begins with, which loses it; without one, or out of the range of T, nothing, and the text
-// stays as it is. `format` as std::from_chars takes it: the base of an integer, the notation of a real.
+// Removes a number from the beginning of the text and returns it. Nothing, and the text stays unchanged, if it does not
+// begin with a number in the range of T. `format` as in std::from_chars: the base of an integer, the notation of a
+// real.
 template <class T, class... Format>
 std::optional<T> takeNumber(std::string_view& text, Format... format) {
   T value{};
@@ -31,27 +32,27 @@ std::optional<T> numberIn(std::string_view text, Format... format) {
 
 // ---- numbers as users write them ---------------------------------------------------------------------------------
 
-// -25, 0x1F, 16#1F, 0b101, 2#101, 8#17, 1_000 are whole; 1.5, -2e3, inf and nan real.
+// -25, 0x1F, 16#1F, 0b101, 2#101, 8#17 and 1_000 are whole; 1.5, -2e3, inf and nan are real.
 enum class NumberForm : uint8_t {
-  None,       // no number
-  Whole,      // of -2^63 to 2^64 - 1
+  None,       // not a number
+  Whole,      // -2^63 to 2^64 - 1
   Real,       // a double: written with a point, an exponent, or as inf or nan
-  TooLong,    // whole and decimal, but beyond 64 bits: no integer, only a real holds it
-  OutOfRange, // one that no cell holds: beyond all doubles, so small that it would become 0, bits beyond 64
+  TooLong,    // whole and decimal, but beyond 64 bits: fits in a real, not in an integer
+  OutOfRange, // fits in no cell: too large for a double, so small that it would become 0, more than 64 bits
 };
 
 struct WrittenNumber {
   NumberForm form = NumberForm::None;
   bool negative = false;  // of a whole number
   uint64_t magnitude = 0; // of a whole number
-  double real = 0;        // of all that a double holds
+  double real = 0;        // of a number that fits in a double
   // The 64 bits of a whole number.
   uint64_t bits() const { return negative ? 0 - magnitude : magnitude; }
 };
 
 namespace detail {
 
-// Takes a prefix such as 0x or 16# off.
+// Removes a prefix such as 0x or 16#, and returns the base.
 inline uint32_t takeBase(std::string_view& digits) {
   struct Prefix {
     std::string_view text;
@@ -90,7 +91,7 @@ inline NumberForm readDigits(std::string_view digits, uint32_t base, uint64_t& m
 }
 
 inline NumberForm readReal(std::string_view digits, double& real) {
-  if (digits.starts_with('-')) return NumberForm::None; // there was a sign before
+  if (digits.starts_with('-')) return NumberForm::None; // a sign was read before
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), real);
   if (error == std::errc::invalid_argument || end != digits.data() + digits.size()) return NumberForm::None;
   const std::string_view mantissa = digits.substr(0, digits.find_first_of("eE"));
@@ -100,7 +101,7 @@ inline NumberForm readReal(std::string_view digits, double& real) {
 
 } // namespace detail
 
-// Of the whole text.
+// The number that the whole text is.
 inline WrittenNumber writtenNumber(std::string_view text) {
   constexpr uint64_t kMostNegative = uint64_t{1} << 63;
   WrittenNumber number;
@@ -123,7 +124,7 @@ inline WrittenNumber writtenNumber(std::string_view text) {
   return number;
 }
 
-// The whole number that is the text, where T holds it.
+// The whole number that the text is, if it fits in T.
 template <class T>
 std::optional<T> wholeIn(std::string_view text) {
   const WrittenNumber number = writtenNumber(text);
@@ -134,14 +135,14 @@ std::optional<T> wholeIn(std::string_view text) {
   return fits ? std::optional(static_cast<T>(number.bits())) : std::nullopt;
 }
 
-// The finite number that is the text, whole or real.
+// The finite number, whole or real, that the text is.
 inline std::optional<double> realIn(std::string_view text) {
   const WrittenNumber number = writtenNumber(text);
   const bool isNumber = number.form != NumberForm::None && number.form != NumberForm::OutOfRange;
   return isNumber && std::isfinite(number.real) ? std::optional(number.real) : std::nullopt;
 }
 
-// Whether an integer of so many bits, 1 to 64, holds the number, with a sign or without; a bit 0 and 1 alone.
+// Whether the number fits in a signed or unsigned integer of `bits` bits, 1 to 64; a bit holds only 0 and 1.
 inline bool fitsBits(const WrittenNumber& number, uint32_t bits) {
   if (number.form != NumberForm::Whole) return false;
   if (number.negative) return bits > 1 && number.magnitude <= uint64_t{1} << (bits - 1);

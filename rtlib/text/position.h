@@ -1,4 +1,4 @@
-// Where something is in the files that are read.
+// A position in the source files.
 #pragma once
 #include <cstdint>
 #include <tuple>
@@ -9,7 +9,7 @@ namespace rung::text {
 struct Position {
   uint32_t line = 1;
   uint32_t column = 1;
-  uint32_t file = 0; // of several, in the order in which they are read
+  uint32_t file = 0; // index of the file, in reading order
   bool operator==(const Position&) const = default;
   bool operator<(const Position& other) const {
     return std::tie(file, line, column) < std::tie(other.file, other.line, other.column);

@@ -1,5 +1,5 @@
-// Files that a user has named, of whatever kind they are: devices and pipes, which would never end or be waited for,
-// and what is too large are refused.
+// Reads files named by a user. Devices and pipes, which might never end or block, and files that are too large are
+// refused.
 #pragma once
 #include <cerrno>
 #include <cstring>
@@ -11,9 +11,9 @@
 
 namespace rung::text {
 
-inline constexpr size_t kMostSource = size_t{64} << 20; // bytes of a source, a scenario, a report
+inline constexpr size_t kMostSource = size_t{64} << 20; // maximum bytes of a source, a scenario or a report
 
-// Opens one; a descriptor, or -1 and why not.
+// Opens a file. Returns its descriptor; -1, and `problem` says why.
 inline int openRegular(const std::string& path, std::string& problem) {
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
   struct stat about{};
@@ -29,7 +29,7 @@ inline int openRegular(const std::string& path, std::string& problem) {
   return -1;
 }
 
-// "" and the contents, or why they cannot be had.
+// Reads a file of at most `most` bytes. Returns "", or why it cannot be read.
 inline std::string readRegular(const std::string& path, size_t most, std::string& contents) {
   std::string problem;
   const int file = openRegular(path, problem);

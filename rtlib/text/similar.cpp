@@ -13,8 +13,8 @@ namespace {
 constexpr size_t kShortWord = 4;
 constexpr size_t kLongest = 32; // longer names are rarely misspelt by two characters
 
-/// The letters around `at` with no `_` or digit between. Short ones distinguish names: LS_A and LS_AA, LS_AB and
-/// LS_BA.
+/// The number of letters around `at` without a `_` or digit between. Short groups distinguish names: LS_A and LS_AA,
+/// LS_AB and LS_BA.
 size_t lettersAround(std::string_view word, size_t at) {
   size_t begin = at, end = at;
   while (begin > 0 && isLetter(word[begin - 1])) --begin;
@@ -22,11 +22,11 @@ size_t lettersAround(std::string_view word, size_t at) {
   return end - begin;
 }
 
-/// Whether the character at `at` of the longer word is a `_`, or the letter beside it once more.
+/// Whether the character at `at` of the longer word is a surplus `_` or repeats the letter beside it.
 bool isSurplus(std::string_view longer, size_t at) {
   const char before = at > 0 ? longer[at - 1] : '_';
   const char after = at + 1 < longer.size() ? longer[at + 1] : '_';
-  if (longer[at] == '_') return isLetter(before) || isLetter(after); // not of K1_1 and K11
+  if (longer[at] == '_') return isLetter(before) || isLetter(after); // but not in K1_1 and K11
   return isLetter(longer[at]) && (before == longer[at] || after == longer[at]) && lettersAround(longer, at) > 2;
 }
 
@@ -35,7 +35,7 @@ bool isExchange(std::string_view a, std::string_view b, size_t at) {
          a.substr(at + 2) == b.substr(at + 2) && lettersAround(a, at) > 2;
 }
 
-/// Both in upper case.
+/// Whether the words differ by a typing error; both are in upper case.
 bool isSlip(std::string_view a, std::string_view b) {
   if (a.size() > b.size()) std::swap(a, b);
   const auto at = static_cast<size_t>(std::mismatch(a.begin(), a.end(), b.begin()).first - a.begin());
@@ -73,7 +73,7 @@ void Similar::offer(std::string_view candidate) {
   const size_t most = best_.empty() ? bound_ - 1 : bound_;
   if (std::max(word_.size(), candidate.size()) - shorter > most) return;
   const size_t d = distance(candidate);
-  if (d > most || d >= shorter) return; // nothing in common is not alike
+  if (d > most || d >= shorter) return; // words with nothing in common are not similar
   if (!best_.empty() && d == bound_) {
     hasRival_ = hasRival_ || candidate != best_;
     return;

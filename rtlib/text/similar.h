@@ -9,20 +9,20 @@
 namespace rung::text {
 
 /// Takes candidates one by one. A candidate is close when it differs by one change in words of up to four characters
-/// and by two in longer ones; a change is a character more, less, or other, or two neighbours exchanged. Other case of
-/// letters counts as no change. The first of equally close candidates stays.
+/// and by two in longer ones; a change is an inserted, deleted or substituted character, or two adjacent characters
+/// exchanged. Case is ignored. Of equally close candidates the first wins.
 class Similar {
 public:
   explicit Similar(std::string_view word);
   void offer(std::string_view candidate);
-  /// Empty when nothing is close.
+  /// Empty if no candidate is close.
   std::string_view best() const { return best_; }
-  /// Whether the word can be nothing but a slip of the hand for the best candidate: other case, two neighbouring
-  /// letters exchanged, a letter doubled or halved, a `_` more or less, and no other candidate is as close. ANDD is
-  /// AND, but VALVE_B may be a valve of its own beside VALVE_A, and a tool that puts the latter there changes what a
-  /// machine does.
+  /// Whether the word can only be a typing error for the best candidate: different case, two adjacent letters
+  /// exchanged, a letter doubled or a double letter halved, a `_` inserted or missing, and no other candidate as close.
+  /// ANDD is AND, but VALVE_B may be another valve than VALVE_A, and a tool that replaces it changes what a machine
+  /// does.
   bool certain() const;
-  /// Whether one change makes the word any of several candidates: RSET may be SET or RST.
+  /// Whether several candidates are one change away: RSET may be SET or RST.
   bool ambiguous() const { return hasRival_ && bound_ == 1; }
 
 private:
@@ -31,16 +31,16 @@ private:
   std::string word_; // in upper case
   size_t bound_;     // candidates must be closer
   std::string_view best_;
-  bool hasRival_ = false; // as close as the best one
+  bool hasRival_ = false; // another candidate is as close as the best one
 };
 
-/// The closest candidate, empty when none is close; and whether it is certain that it was meant.
+/// The closest candidate, empty if none is close; and whether it is certainly meant (Similar::certain).
 struct Likely {
   std::string_view word;
   bool certain = false;
 };
 
-/// Of the names of the candidates, which live longer than the result.
+/// The most similar name of the candidates, which outlive the result.
 template <class Candidates, class NameOf = std::identity>
 Likely likeliest(std::string_view word, Candidates&& candidates, NameOf nameOf = {}) {
   Similar similar(word);

@@ -12,25 +12,25 @@ namespace {
 
 constexpr size_t kMostParts = 64; // of a key
 
-// Past the string that begins there.
+// The position after the string that begins at `at`.
 size_t endOfString(std::string_view text, size_t at) {
   const std::string_view quote = text.substr(at, 1), longQuote = text.substr(at, 3);
   const bool isLong = longQuote.size() == 3 && longQuote[1] == quote[0] && longQuote[2] == quote[0];
   const std::string_view end = isLong ? longQuote : quote;
   for (at += end.size(); at < text.size() && text.substr(at, end.size()) != end; ++at) {
-    if (!isLong && text[at] == '\n') return at; // it has no end, which the parser says
+    if (!isLong && text[at] == '\n') return at; // it is not terminated, which the parser reports
     if (quote == "\"" && text[at] == '\\') ++at;
   }
   return at + end.size();
 }
 
-// What the parser must not get, or would not refuse; null text: nothing.
+// Text that the parser must not get, or would accept although it is wrong; null text: none.
 struct Refused {
   size_t at = 0;
   const char* text = nullptr;
 };
 
-// 16#20 is 16 and a comment for it.
+// Finds such text; the parser would read 16#20 as 16 and a comment.
 Refused findRefused(std::string_view text) {
   static_assert(kMostParts == 64, "as the sentence says");
   size_t parts = 1;

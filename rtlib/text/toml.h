@@ -1,5 +1,5 @@
-// Reading files of TOML: tables by tables of their keys, and every mistake with its position. Numbers of another base
-// are 0x20 here; 16#20 as in scenarios is refused.
+// Reads TOML files by tables of keys, and reports every error with its position. Hexadecimal numbers are written 0x20;
+// 16#20, as in scenarios, is refused.
 #pragma once
 #include <algorithm>
 #include <cstdint>
@@ -16,18 +16,18 @@
 
 namespace rung::text {
 
-// A value as a file has it; of tables and lists the kind.
+// A value as written in a file; for tables and lists their kind.
 std::string textOf(const toml::node& node);
-// "" where the value is not a text.
+// "" if the value is not a text.
 std::string stringOf(const toml::node& node);
-// Integers, too; nothing where the value is not a finite number.
+// The value of a number or integer; nothing if it is not a finite number.
 std::optional<double> numberOf(const toml::node& node);
 
 // toml++ keeps the keys of a table sorted by name.
 using TomlEntry = std::pair<const toml::key*, const toml::node*>;
 std::vector<TomlEntry> inFileOrder(const toml::table& table);
 
-// A key of a table that is read into a Row; `take`, of the reader, gives false where the value is not what is expected.
+// A key of a table that is read into a Row; the reader's `take` returns false if the value is not as expected.
 template <class Reader, class Row>
 struct TomlKey {
   std::string_view name;
@@ -39,7 +39,7 @@ struct TomlKey {
 
 struct TomlMistake {
   enum class Kind : uint8_t {
-    Syntax,     // `found`: what is not TOML
+    Syntax,     // `found`: the text that is not TOML
     UnknownKey, // `found`: the key; `expected`: all keys
     MissingKey, // `found`: the key
     Value,
@@ -52,20 +52,20 @@ struct TomlMistake {
   std::string found;
   std::string expected = {};
   std::string example = {};
-  Likely meant = {}; // of an unknown key
+  Likely meant = {}; // for an unknown key
 
   std::string text() const;
 };
 
-// One or several files that are being read, and what is wrong with them.
+// The reading of one or several files, with the errors found so far.
 class TomlReading {
 public:
-  // The number of the file that is being read, for positions.
+  // The index of the current file, for positions.
   uint32_t file() const { return file_; }
   void setFile(uint32_t file) { file_ = file; }
 
-  // Nothing: the text is not TOML, which is a mistake. (The parser follows the parts of a key by recursion: a key of a
-  // hundred thousand parts would end the process, and is refused before.)
+  // Nothing: the text is not TOML, which is recorded as a mistake. (The parser follows the parts of a key by recursion:
+  // a key of a hundred thousand parts would overflow the stack, and is refused before.)
   std::optional<toml::table> parse(std::string_view text);
 
   Position positionOf(const toml::source_region& region) const {
@@ -76,7 +76,7 @@ public:
   void fail(Position at, std::string message) {
     mistakes_.push_back({.at = at, .end = at, .found = std::move(message)});
   }
-  // The value of a key is something else than expected.
+  // Records that the value of a key is not as expected.
   void wrong(const toml::node& node, std::string_view where, std::string_view expected, std::string_view example) {
     wrong(node.source(), where, textOf(node), expected, example);
   }
@@ -113,7 +113,7 @@ private:
   void unknownKey(const toml::key& key, std::string_view where, const std::vector<std::string_view>& known);
   void missingKey(std::string_view name, const toml::table& table, std::string_view where, std::string_view expected,
                   std::string_view example);
-  // Whether an unknown key of the table may mean `name`: that is reported, once.
+  // Whether an unknown key of the table may mean `name`, so that only the unknown key is reported.
   static bool isMisspelt(std::string_view name, const toml::table& table, const std::vector<std::string_view>& known);
 
   uint32_t file_ = 0;

@@ -1,4 +1,4 @@
-// Which Rung this is.
+// The version of Rung.
 #pragma once
 
 namespace rung::text {

@@ -1,4 +1,4 @@
-// Axes of the simulated CNC.
+// The axes of the simulated CNC.
 #include "sim/gsk/axes.h"
 
 #include <cmath>
@@ -101,7 +101,7 @@ void Axes::writeSignals(const nc::gsk::SignalsIo& io, const Tables& tables, bool
   io.setFDword(70, switches(tables));
 }
 
-// Position switches, a bit each (l.4226).
+// The position switches, one bit each (l.4226).
 uint32_t Axes::switches(const Tables& tables) const {
   if (!tables.parameterBit(kParamSwitches, 3)) return 0; // SWI
   uint32_t bits = 0;
@@ -170,10 +170,10 @@ void Operation::modalCode(Run&, int tenths, double p) {
   }
 }
 
-// The codes first, then the words that they govern.
+// Takes the codes first, then the words that depend on them.
 void Operation::prepare(Run& run, const Block& block) {
   codes_.m.clear();
-  codes_ = {.m = std::move(codes_.m)}; // with its memory
+  codes_ = {.m = std::move(codes_.m)}; // keeps its memory
   moveCount_ = 0;
   dwellMs_ = 0;
   std::array<std::optional<double>, kAxes> words;
@@ -255,7 +255,7 @@ void Operation::prepareMotion(Run& run, const std::array<std::optional<double>, 
   moves_[moveCount_++] = move;
 }
 
-// The part of the path that this slot covers.
+// The fraction of the path that this slot covers.
 double Operation::pathStep(Run& run, const PathMove& move) {
   const Machine& m = run.machine;
   double length = 0, part = 1;
@@ -287,7 +287,7 @@ void Operation::advance(Run& run) {
   PathMove& move = moves_[move_];
   bool may = !run.io.g(7, 1); // STLK l.5547
   if (may && !move.begun) m.rapid = move.rapid;
-  if (!move.begun || displaced(m, move)) { // moved by hand in a feed hold: straight on from there
+  if (!move.begun || displaced(m, move)) { // moved by hand in a feed hold: it continues straight from there
     for (uint32_t i = 0; i < m.axes.count(); ++i) move.start[i] = m.axes[i].commanded;
     for (uint32_t i = 0; i < m.axes.count(); ++i)
       if (m.isPlcAxis(i)) move.target[i] = move.start[i];

@@ -62,7 +62,7 @@ void Operation::powerOff() {
   *this = std::move(fresh);
 }
 
-// Leaving the automatic modes holds the feed; another automatic mode lets the block end.
+// Leaving the automatic modes holds the feed; on a change to another automatic mode the block ends first.
 void Operation::followMode(Run& run) {
   mode_ = modeOf(run.io);
   if (state_ != RunState::Start || mode_ == runMode_) return;
@@ -73,13 +73,13 @@ void Operation::followMode(Run& run) {
 }
 
 void Operation::followButtons(Run& run) {
-  const bool startOn = run.io.g(7, 2); // ST, effective when it falls (l.5181)
+  const bool startOn = run.io.g(7, 2); // ST, effective at its falling edge (l.5181)
   const bool pressed = startWasOn_ && !startOn;
   startWasOn_ = startOn;
   const bool hold = !run.io.g(8, 5); // *SP
   if (state_ == RunState::Start && (hold || run.machine.alarms.any())) state_ = RunState::Hold;
   if (!pressed || hold || run.machine.alarms.any() || !runsPrograms(mode_) || state_ == RunState::Start) return;
-  if (mode_ != runMode_ && inBlock_) return; // a block of another mode waits for reset
+  if (mode_ != runMode_ && inBlock_) return; // a block of another mode must be reset first
   if (mode_ != runMode_ || (state_ == RunState::Reset && !inBlock_)) next_ = 0;
   runMode_ = mode_;
   if (running()->blocks.empty()) return;
@@ -91,7 +91,7 @@ void Operation::progress(Run& run) {
   if (state_ == RunState::Reset || state_ == RunState::Suspended) return;
   const bool moves = state_ == RunState::Start;
   bool moved = false;
-  // A block without motion and codes takes no time; a motion takes at least a slot.
+  // A block without motion and codes takes no time; a motion takes at least one slot.
   for (size_t blocks = 0; blocks <= running()->blocks.size(); ++blocks) {
     if (!inBlock_ && (!moves || !beginBlock(run))) break;
     if (moves && !moved && (moving() || dwellMs_ > 0)) {
@@ -161,7 +161,7 @@ void Operation::finishBlock(Run& run) {
   if (next_ >= running()->blocks.size()) end();
 }
 
-// The program has ended: back to its beginning, reset state.
+// The program has ended: returns to its beginning and to the reset state.
 void Operation::end() {
   state_ = RunState::Reset;
   next_ = 0;
@@ -199,7 +199,7 @@ void Operation::writeSignals(const nc::gsk::SignalsIo& io) const {
   io.setFByte(3, echo);
 }
 
-// Functions of a block.
+// The functions of a block.
 
 namespace {
 
@@ -231,7 +231,7 @@ namespace {
 
 constexpr int64_t kIncrement = 10; // 0.001 mm, in units
 
-// x1 x10 x100 x1000 by MP2 MP1, a tenth with MPSELT (l.4609-4613); the second wheel has bits of its own (l.4632).
+// x1 x10 x100 x1000 by MP2 MP1, a tenth with MPSELT (l.4609-4613); the second wheel has separate bits (l.4632).
 int64_t increment(const nc::gsk::SignalsIo& io, uint32_t wheel) {
   constexpr int64_t kPowers[] = {1, 10, 100, 1000};
   const uint8_t bits = wheel == 2 ? io.gByte(87) : io.gByte(19);
@@ -239,7 +239,7 @@ int64_t increment(const nc::gsk::SignalsIo& io, uint32_t wheel) {
   return wheel == 1 && io.g(19, 3) ? units / 10 : units;
 }
 
-// G10-G11 in 0.01 % where it is not 0, else G12, which the text gives to manual feed as well (l.5691).
+// G10-G11 in 0.01 % if it is not 0, else G12, which the text also applies to manual feed (l.5691).
 double jogOverride(const nc::gsk::SignalsIo& io) {
   const uint16_t jv = io.gWord(10);
   return jv == 0 ? feedOverride(io) : jv == 0xFFFF ? 0 : jv / 10000.0;
@@ -292,7 +292,7 @@ void Manual::jog(const nc::gsk::SignalsIo& io, Machine& machine, uint32_t axis, 
   machine.axes.moveTowards(axis, machine.axes[axis].commanded + (negative ? -far : far), unitsPerSlot(speed));
 }
 
-// Without blocks (l.5087): straight to the origin while the key is held, whichever direction it names.
+// Return without deceleration blocks (l.5087): straight to the origin while the key is held, whatever its direction.
 void Manual::returnToReference(const nc::gsk::SignalsIo& io, Machine& machine, uint32_t axis) {
   Axis& a = machine.axes[axis];
   if (a.atReference[0]) return;

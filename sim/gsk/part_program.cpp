@@ -1,4 +1,4 @@
-// Reader of part programs.
+// Reads part programs.
 #include "sim/gsk/part_program.h"
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace rung::sim::gsk {
 
 namespace {
 
-// Tenths, since G54.1 is one.
+// G codes in tenths, because of G54.1.
 constexpr int kCodes[] = {0,   10,  40,  170, 180, 190, 200, 210, 280, 300, 400, 410, 420, 430, 490,
                           530, 540, 541, 550, 560, 570, 580, 590, 800, 810, 900, 910, 920, 940, 950};
 
@@ -87,7 +87,7 @@ std::string readPartProgram(std::string_view text, std::string_view axes, bool m
   return Reader(text, axes, manyM, program).readBlocks(program.blocks);
 }
 
-// Quantities of the simulated CNC by name: what scenarios read and set.
+// Quantities of the simulated CNC by name, which scenarios read and set.
 
 namespace {
 

@@ -106,7 +106,8 @@ bool PlcAxes::Mover::begin(uint8_t axes, const Command& command) {
   return good;
 }
 
-// G151, G163, G175: 0-254 %, 255 counts as 0 as for the CNC's own feed (l.8134); EOVC makes it 100 % (l.8146).
+// The override by G151, G163, G175: 0-254 %, where 255 counts as 0, as for the CNC's own feed (l.8134); EOVC makes it
+// 100 % (l.8146).
 double PlcAxes::Mover::cuttingOverride(uint32_t axis) const {
   const nc::gsk::AxisGroup& place = nc::gsk::axisGroups()[groupOf(axis).value_or(0)];
   const bool cancelled = place.overrideCancel != 0 && io_.g(place.overrideCancel, 5);
@@ -115,7 +116,7 @@ double PlcAxes::Mover::cuttingOverride(uint32_t axis) const {
   return percent == 255 ? 0 : percent / 100.0;
 }
 
-// mm/min (deg/min) of the command with its override, within parameter 7122 (l.8277).
+// The speed of the command with its override in mm/min (deg/min), limited by parameter 7122 (l.8277).
 double PlcAxes::Mover::speed(const Command& command, uint32_t axis) const {
   const Tables& tables = machine_.tables;
   const double most = tables.parameterReal(kParamPlcMaxSpeed, axis);
@@ -158,7 +159,7 @@ bool PlcAxes::Mover::runMotion(uint8_t axes, const Command& command) {
   return true;
 }
 
-// Ended by ECLR only. A speed in r/min turns a rotary axis by 360 degrees a turn.
+// A continuous motion, which only ECLR ends. A speed in r/min turns a rotary axis by 360 degrees per turn.
 bool PlcAxes::Mover::runContinuous(uint8_t axes, const Command& command) {
   const bool jog = command.code == nc::gsk::kAxisContinuous;
   forAxes(axes, [&](uint32_t i) {

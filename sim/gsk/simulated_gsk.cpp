@@ -1,5 +1,5 @@
 // The CNC beside a GSK25i PLC: messages of the A area, window requests, machine positions, and in simulated mode the
-// CNC itself (gsk/simulator.h). Presets of timers and counters are the compiler's configuration: initial contents of T
+// CNC itself (gsk/simulator.h). Presets of timers and counters are configured in the compiler, as initial contents of T
 // and C.
 #include <algorithm>
 #include <array>
@@ -33,7 +33,7 @@ public:
   void powerOn(runtime::Instance& instance, nc::PowerOn kind) override {
     SimulatedNc::powerOn(instance, kind);
     findPlaces(instance);
-    if (simulated_) clearArea(instance, "F"); // the CNC is switched on as well
+    if (simulated_) clearArea(instance, "F"); // the CNC is switched on, too
     simulator_.powerOn(kind == nc::PowerOn::Warm);
     waiting_.clear();
   }
@@ -44,7 +44,7 @@ public:
     findPlaces(instance);
   }
 
-  // A slice is a slot.
+  // Called for every slice, which is a slot.
   void beforePart(runtime::Instance& instance) override {
     if (simulated_ && !instance.faulted()) {
       simulator_.step(*control_.signals());
@@ -74,8 +74,8 @@ public:
   }
 
 protected:
-  // A high-speed request is answered in the scan of the call (man. l.8505). No answer was prepared for this one:
-  // scripted, the function is not provided (inventory §18).
+  // A high-speed request is answered in the scan of the call (man. l.8505). Called if the scenario has prepared no
+  // answer: in scripted mode the function is not provided (inventory §18).
   bool serve(runtime::Instance&, const core::ServiceRequest& request, core::ServiceReply& reply) override {
     const auto window = windowRequest(request);
     if (!window) return false;
@@ -99,14 +99,14 @@ private:
       positionPlaces_[axis] = space == RUNG_NONE ? core::Place() : instance.memory().locate(space, 4 * axis, 4);
   }
 
-  // From 0, of MPOS.1 to MPOS.8.
+  // The axis, from 0, of MPOS.1 to MPOS.8.
   static std::optional<uint32_t> axisOfPosition(std::string_view name) {
     const auto axis = numbersAfter(name, "MPOS.");
     if (!axis || axis->size() != 1 || axis->front() < 1 || axis->front() > gsk::kAxes) return std::nullopt;
     return axis->front() - 1;
   }
 
-  // What PSGNL and PSGN2 read: 8 positions of 4 bytes in 0.001 mm.
+  // Writes the positions that PSGNL and PSGN2 read: 8 positions of 4 bytes in 0.001 mm.
   void writePositions(runtime::Instance& instance) const {
     for (uint32_t axis = 0; axis < gsk::kAxes; ++axis) {
       const double position = simulated_ ? simulator_.machinePosition(axis) : scriptedPositions_[axis].value_or(0);
@@ -160,7 +160,7 @@ private:
   bool simulated_ = false;
   nc::GskControl control_;
   gsk::Simulator simulator_;
-  std::vector<Waiting> waiting_; // low-speed window requests, oldest first; room for all that can be pending
+  std::vector<Waiting> waiting_; // low-speed window requests, oldest first; with room for kMaxPending
   std::array<core::Place, gsk::kAxes> positionPlaces_ = {};              // @MPOS
   std::array<std::optional<double>, gsk::kAxes> scriptedPositions_ = {}; // 0.001 mm
 };
@@ -176,7 +176,7 @@ std::string SimulatedGsk::config(std::string_view key, std::string_view value) {
   if (key == "protect") simulator_.setProtected(value == "on");
   if (key == "jog") simulator_.setJogSpeed(text::realIn(value).value_or(0));
   if (!key.starts_with("param.")) return {};
-  // param.N, or param.N.A for axis A alone.
+  // param.N for all axes, or param.N.A for axis A.
   const size_t dot = key.find('.', 6);
   const auto parameter = text::numberIn<uint32_t>(key.substr(6, dot == std::string_view::npos ? dot : dot - 6));
   const uint32_t axis = dot == std::string_view::npos ? 1 : text::numberIn<uint32_t>(key.substr(dot + 1)).value_or(0);

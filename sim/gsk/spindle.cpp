@@ -1,4 +1,4 @@
-// Spindles of the simulated CNC.
+// The spindles of the simulated CNC.
 #include "sim/gsk/spindle.h"
 
 #include <algorithm>
@@ -29,7 +29,8 @@ void Spindle::Motor::orient(bool ordered) {
 
 bool Spindle::Motor::oriented() const { return orienting == kOrientingSlots; }
 
-// Unsigned speed in order of precedence: gear shift, PLC, S code with override; limited by the gear in use.
+// The unsigned target speed of the first spindle, in order of precedence: gear shift, PLC, S code with override;
+// limited by the present gear.
 double Spindle::firstTarget(const nc::gsk::SignalsIo& io, const Tables& tables) const {
   if (io.g(29, 5)) return tables.parameterReal(kParamGearSpeed); // SOR l.6406
   if (io.g(33, 7)) return plcSpeed(io, tables, 32);              // SSND l.7369
@@ -43,7 +44,7 @@ double Spindle::firstTarget(const nc::gsk::SignalsIo& io, const Tables& tables) 
   return most > 0 ? std::min(speed, most) : speed;
 }
 
-// GR1O-GR4O by the switching speeds (l.6377-6388); without them there are no gears.
+// Writes GR1O-GR4O by the switching speeds (l.6377-6388); without these there are no gears.
 void Spindle::writeGear(const nc::gsk::SignalsIo& io, const Tables& tables) const {
   uint32_t gear = 0;
   bool shifts = false;

@@ -7,8 +7,7 @@ namespace rung::sim::gsk {
 
 namespace {
 
-// The tables of a machine that has not been set up. An axis parameter that has no value of its own takes that of the
-// first axis.
+// The default values of parameters. An axis parameter without a value has that of the first axis.
 int64_t defaultOf(uint32_t parameter) {
   switch (parameter) {
   case kParamDryRun: return 3000;
@@ -48,12 +47,12 @@ void Tables::clearVolatile() {
   cells_.erase(cells_.lower_bound({Table::Macro, 100, 0}), cells_.lower_bound({Table::Macro, 200, 0}));
 }
 
-// Macro variables: the interface variables are the signals themselves (man. Tables 10-1, 10-2, l.9081-9150), the others
-// are cells of the table. Values in 0.0001.
+// Macro variables: interface variables are signals (man. Tables 10-1, 10-2, l.9081-9150), others are cells of the
+// table. Values are in 0.0001.
 
 namespace {
 
-// #1000 or #1100 and what follows: 32 bits, then four fields of 32 bits.
+// From #1000 or #1100 on: 32 bits, then four fields of 32 bits.
 constexpr uint32_t kInputs = 1000;
 constexpr uint32_t kOutputs = 1100;
 constexpr uint32_t kFields[] = {54, 226, 230, 234}; // bytes of G and of F
@@ -72,7 +71,7 @@ int64_t Machine::macro(uint32_t number, const nc::gsk::SignalsIo& io) const {
 }
 
 void Machine::setMacro(uint32_t number, int64_t value, const nc::gsk::SignalsIo& io) {
-  if (isInterface(number, kInputs)) return; // the PLC's
+  if (isInterface(number, kInputs)) return; // written by the PLC
   if (!isInterface(number, kOutputs)) {
     tables.set(Table::Macro, number, 0, value);
     return;

@@ -1,4 +1,4 @@
-// Window requests.
+// The window requests.
 #include "sim/gsk/window.h"
 
 namespace rung::sim::gsk {
@@ -12,7 +12,7 @@ bool fits(int64_t value, uint32_t length) {
   return value >= -limit && value < limit;
 }
 
-// The data number M: 3 where there is no such cell.
+// Whether the data number M exists; else the end code is 3.
 bool numberExists(const WindowRequest& r) {
   switch (r.function) {
   case 1:
@@ -32,7 +32,7 @@ bool numberExists(const WindowRequest& r) {
   }
 }
 
-// The attribute N: 4 where there is none such.
+// Whether the attribute N exists; else the end code is 4.
 bool attributeExists(const WindowRequest& r, uint32_t axes) {
   switch (r.function) {
   case 1:
@@ -75,7 +75,7 @@ WindowAnswer write(const WindowRequest& r, Machine& m, const nc::gsk::SignalsIo&
 
 } // namespace
 
-// Errors in the order of the end codes' numbers; 6 and 7 where the codes before them do not apply.
+// Errors are checked in the order of the end codes; 6 and 7 apply only if lower codes do not.
 WindowAnswer answerWindow(const WindowRequest& request, Machine& machine, const nc::gsk::SignalsIo& io,
                           uint32_t sequence, bool locked) {
   const nc::gsk::WindowFunction* function = nc::gsk::findWindowFunction(request.function);
@@ -100,7 +100,8 @@ WindowAnswer answerWindow(const WindowRequest& request, Machine& machine, const 
 
 // External data input.
 
-// ESTC, then EREND when the data have been read, ESEND when the function is carried out; both fall with ESTC.
+// Handshake: ESTC, then EREND when the data have been read, and ESEND when the function has been executed; both fall
+// with ESTC.
 void ExternalData::step(const nc::gsk::SignalsIo& io, Machine& machine, Operation& operation, bool resetting) {
   const bool start = io.g(13, 7);
   if (!start) phase_ = Phase::Idle;

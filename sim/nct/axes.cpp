@@ -30,7 +30,7 @@ uint32_t Axes::channelOf(uint32_t axis) const {
   return number >= 1 && number <= static_cast<int32_t>(nc::nct::kChannels) ? static_cast<uint32_t>(number) - 1 : 0;
 }
 
-// The manual's tables halve nothing but the unit of rotary axes: A, B, C by their names (N0100).
+// Rotary axes are A, B and C by their names (N0100).
 bool Axes::rotary(uint32_t axis) const {
   const int32_t letter = parameter(parameters_.name, axis);
   return letter >= 'A' && letter <= 'C';
@@ -92,7 +92,7 @@ void Axes::cancel(uint32_t axis) { axes_[axis].program = {}; }
 
 bool Axes::serves(bool write, uint32_t function) const { return write && function == 90; }
 
-// l.4252-4293. Code 90 has no condition in the manual: here a position that is not a number.
+// l.4252-4293. The manual does not define code 90: here it is for a position that is not a number.
 std::optional<int32_t> Axes::service(uint32_t, Block& block) {
   if (block.amount() != 3) return 2;
   const int32_t index = block.word(2);
@@ -184,7 +184,7 @@ void Axes::keep(Kept& kept) {
 
 // ---- configuration, events, quantities ---------------------------------------------------------------------------
 
-// N0002 Axis Assign, N0100 Axis Name1, and drives of the axes' numbers (N0501, N0503).
+// Sets N0002 Axis Assign, N0100 Axis Name1, and drives with the numbers of the axes (N0501, N0503).
 void Axes::name(std::string_view names) {
   for (uint32_t i = 0; i < nc::nct::kAxes; ++i) {
     const bool there = i < names.size();
@@ -256,13 +256,14 @@ Handled Axes::setQuantity(std::string_view name, double value) {
   return "";
 }
 
-// How axes move: commands of MOVCMND, part programs, jog, increments, hand wheels, reference point.
+// Motion of axes: commands of MOVCMND, part programs, jog, increments, hand wheels, reference point.
 
 namespace {
 
 constexpr double kEnd = 1e12; // a target that is never reached
 
-// Feed by CP_JOGFD with N0316 = 1, mm/min (l.10779-10796); above 15 the row continues, tenfold in five steps.
+// Feed by CP_JOGFD with N0316 = 1, mm/min (l.10779-10796); above 15 the series continues, by a factor of ten every five
+// steps.
 constexpr double kJogFeeds[] = {0, 2, 3.2, 5, 7.9, 12.6, 20, 32, 50, 79, 126, 200, 320, 500, 790, 1260};
 
 double jogFeed(int32_t selection) {
@@ -285,7 +286,7 @@ void Axes::reset(uint32_t axis) {
   set(signals_.motionDone, axis, true);
 }
 
-// The interpolator takes the command that waits.
+// The interpolator takes the waiting command.
 void Axes::take(uint32_t axis) {
   Axis& state = axes_[axis];
   state.active = state.buffer;
@@ -312,7 +313,7 @@ void Axes::stepPlc(uint32_t axis) {
       state.active.kind == AxisCommand::Kind::None && state.buffer.kind == AxisCommand::Kind::None);
 }
 
-// True: it is done.
+// Executes a command. True: it is finished.
 bool Axes::execute(uint32_t axis, const AxisCommand& command) {
   Axis& state = axes_[axis];
   switch (command.kind) {
@@ -381,7 +382,7 @@ void Axes::stepManual(uint32_t axis) {
   state.jogBefore = direction;
 }
 
-// A step of CP_INC at every new request; it stops when the request goes (l.8531).
+// Moves by a step of CP_INC at every new request, and stops when the request ends (l.8531).
 void Axes::stepIncrement(uint32_t axis, uint32_t channel) {
   Axis& state = axes_[axis];
   const int32_t direction = jogDirection(axis);
@@ -391,7 +392,7 @@ void Axes::stepIncrement(uint32_t axis, uint32_t channel) {
   moveSteps(axis, manualSpeed(axis));
 }
 
-// Either jog request moves to the reference point, until it is there (l.8535).
+// Either jog request moves the axis to the reference point (l.8535).
 void Axes::stepReference(uint32_t axis) {
   Axis& state = axes_[axis];
   const bool asked = get(signals_.jogPositive, axis) || get(signals_.jogNegative, axis);
@@ -431,7 +432,7 @@ int32_t Axes::jogDirection(uint32_t axis) const {
   return (signals_.jogPositive.in(asked) ? 1 : 0) - (signals_.jogNegative.in(asked) ? 1 : 0);
 }
 
-// Of all handwheels that this axis is assigned to (l.6733).
+// The pulses of all handwheels assigned to this axis (l.6733).
 int32_t Axes::pulsesFor(uint32_t axis) const {
   int32_t sum = 0;
   for (size_t wheel = 0; wheel < turned_.size(); ++wheel)
@@ -441,7 +442,7 @@ int32_t Axes::pulsesFor(uint32_t axis) const {
 
 // ---- motion ------------------------------------------------------------------------------------------------------
 
-// The flags of the PLC that answer the request of this motion (l.8267-8281), holds, limit switches, an open loop.
+// Whether the PLC's flags for this motion (l.8267-8281), holds, limit switches and the position loop allow it.
 bool Axes::mayMove(uint32_t axis, bool positive, Pace pace) const {
   const bool disabled = get(positive ? signals_.noPositive : signals_.noNegative, axis) ||
                         get(pace == Pace::Rapid ? signals_.noRapid : signals_.noFeed, axis);
@@ -451,7 +452,8 @@ bool Axes::mayMove(uint32_t axis, bool positive, Pace pace) const {
          !get(signals_.syncSlave, axis);
 }
 
-// Range 1 where N1000 #0 enables it and CP_LIM1DIS does not disable it; 1B by AP_LIMSELP, AP_LIMSELN.
+// The limit of range 1, if N1000 #0 enables it and CP_LIM1DIS does not disable it; range 1B if selected by AP_LIMSELP,
+// AP_LIMSELN.
 double Axes::strokeLimit(uint32_t axis, bool positive) const {
   constexpr double kNone = std::numeric_limits<double>::infinity();
   const bool enabled = option(parameters_.rangeEnable, 0, axis) &&
@@ -492,7 +494,7 @@ void Axes::shift(uint32_t axis, double way) {
   follow(axis, way);
 }
 
-// Synchronous slaves make the way of their master, superimposed ones add it to their own (l.8617-8670).
+// Synchronous slaves move as far as their master, superimposed ones in addition to their own motion (l.8617-8670).
 void Axes::follow(uint32_t master, double way) {
   if (!get(signals_.syncMaster, master) && !get(signals_.superMaster, master)) return;
   const double seconds = static_cast<double>(links().sliceUs) * 1e-6;
@@ -521,7 +523,7 @@ void Axes::writeMotionSignals(uint32_t axis) {
 
 // Requests and acknowledgements of the axes, and their positions as signals (see axes.h; man. 7.10, 7.13).
 
-// Acknowledgements come only when nothing of the axis is under way: the block buffer is empty.
+// Requests are acknowledged only while the axis has no motion under way and its block buffer is empty.
 bool Axes::free(uint32_t axis) const {
   const Axis& state = axes_[axis];
   return state.program.kind == AxisCommand::Kind::None && state.velocity == 0;
@@ -556,7 +558,7 @@ void Axes::acknowledge(uint32_t axis) {
   set(signals_.parked, axis, coupled && signals_.parkRequest.in(asked));
 }
 
-// The slave asks; the parameter names the number of its master, 0: it is not a slave (l.8625-8627).
+// The slave requests the coupling; the parameter has the number of its master, or 0 if it is not a slave (l.8625-8627).
 void Axes::acknowledge(uint32_t axis, uint32_t asked, uint32_t answers, const Coupling& coupling) {
   const bool asks = coupling.request.in(asked);
   const bool slave = coupling.slave.in(answers);
@@ -600,7 +602,7 @@ bool Axes::atStrokeLimit(uint32_t axis, bool positive) const {
   return positive ? axes_[axis].position >= limit : axes_[axis].position <= limit;
 }
 
-// Before every PLC cycle (l.7713); a switch exists if its axis does.
+// Called before every PLC cycle (l.7713); a switch exists if its axis does.
 void Axes::writeSwitches() {
   const SignalMemory& signals = links().signals;
   const Parameters& parameters = *links().parameters;

@@ -80,7 +80,7 @@ std::string Channel::enter(std::string_view blocks) {
   return {};
 }
 
-// Words that the channel knows.
+// Checks that the channel knows the words of a program.
 std::string Channel::check(const ChannelProgram& program) const {
   for (const ProgramBlock& block : program.blocks)
     for (const ProgramWord& word : block.words) {
@@ -103,14 +103,14 @@ void Channel::followMachine() {
   machineOn_ = on;
 }
 
-// An offset measurement holds the channel in jog mode (l.10053, l.10076).
+// An offset measurement keeps the channel in jog mode (l.10053, l.10076).
 void Channel::followModes(uint32_t asked) {
   const bool measuring = signals_.lengthMeasuring.in(asked) || signals_.offsetMeasuring.in(asked);
   const uint32_t rising = asked & ~askedBefore_ & signals_.modeRequests;
   for (uint32_t i = 0; i < kModes && rising != 0; ++i)
     if (signals_.modeRequest[i].in(rising) && !measuring) wanted_ = static_cast<Mode>(i);
   if (measuring) wanted_ = Mode::Jog;
-  // Override and stop disabled: the change waits (l.9789).
+  // While override and stop are disabled, the change waits (l.9789).
   if (wanted_ == mode_ || (start_ && run().motion.overrideDisabled())) return;
   changeMode(wanted_);
 }
@@ -121,7 +121,7 @@ void Channel::changeMode(Mode mode) {
   mode_ = mode;
 }
 
-// An automatic run is interrupted, everything else forgotten (l.9789-9793).
+// An automatic run is interrupted, everything else is cancelled (l.9789-9793).
 void Channel::leave() {
   Run& current = run();
   handover_.dropStrobes();
@@ -132,7 +132,7 @@ void Channel::leave() {
   current.motion.interrupt();
 }
 
-// Not in the modes that execute programs (l.9800-9905).
+// Options change only in modes that do not execute programs (l.9800-9905).
 void Channel::followToggles(uint32_t options) {
   const uint32_t rising = options & ~optionsBefore_ & signals_.toggleRequests;
   for (uint32_t i = 0; i < kToggles && rising != 0; ++i)
@@ -143,7 +143,7 @@ void Channel::followConditions(uint32_t asked, uint32_t options) {
   uint32_t bits =
       signals_.wheelOffset.as(signals_.wheelOffsetRequest.in(asked) && (automatic() || mode_ == Mode::Mdi)) |
       signals_.misaligned.as(signals_.misalignedRequest.in(asked) && manual());
-  // N3200: 1 head-head, 2 head-table, 3 table-table; others are not five-axis machines.
+  // N3200: 1 head-head, 2 head-table, 3 table-table; other values are not five-axis machines.
   const int32_t mechanics = links_.parameters->dword(parameters_.mechanics, channel_);
   const bool head = mechanics == 1 || mechanics == 2, table = mechanics == 2 || mechanics == 3;
   const bool able[] = {head, head, head || table, table};
@@ -174,7 +174,7 @@ void Channel::followStart(uint32_t asked) {
   run().motion.begin();
 }
 
-// Functions without acknowledge are handed over again (l.9566).
+// Continues an interrupted run; functions without acknowledge are sent again (l.9566).
 void Channel::goOn() {
   Run& current = run();
   interrupted_ = false;
@@ -213,7 +213,8 @@ void Channel::cycle(const ChannelProgram* selected, int64_t us) {
   showState();
 }
 
-// Started, with a feed, with an override above 0 and a turning spindle (l.4432-4434).
+// Tool life counts while the channel is started, feeding with an override above 0, and the spindle is turning
+// (l.4432-4434).
 void Channel::countTime(int64_t us) const {
   const ChannelMotion& motion = run().motion;
   if (start_ && motion.machining() && links_.spindles->speed(motion.spindle()) != 0)
@@ -239,7 +240,7 @@ void Channel::showState() {
 
 namespace {
 
-constexpr uint32_t kBlocksOfACycle = 50; // that take no time; a jump may go back for ever
+constexpr uint32_t kBlocksOfACycle = 50; // blocks that take no time; a limit, because jumps may loop forever
 constexpr int32_t kStop = 0, kConditionalStop = 1, kEnd = 2, kEndAndRewind = 30, kToolChange = 6;
 
 bool holds(const ProgramJump& jump, double left, double right) {
@@ -282,7 +283,7 @@ bool Channel::jumps(const ProgramBlock& block, const ChannelProgram& program) {
   return true;
 }
 
-// False: there is nothing to execute in this cycle.
+// Begins the next block. False: there is nothing to execute in this cycle.
 bool Channel::beginBlock(const ChannelProgram& program) {
   Run& current = run();
   if (current.next >= program.blocks.size()) {
@@ -308,7 +309,7 @@ bool Channel::beginBlock(const ChannelProgram& program) {
   return true;
 }
 
-// The M code of the block in the range of N2201 to N2202; negative: none.
+// The M code of the block in the range of N2201 to N2202; negative if there is none.
 int32_t Channel::waitingCode(const ProgramBlock& block) const {
   const int32_t first = links_.parameters->dword(parameters_.waitingFirst);
   for (const ProgramWord& word : block.words) {
@@ -327,7 +328,7 @@ uint32_t Channel::spindleOf(const ProgramBlock& block, const ProgramWord& word) 
   return number >= 1 && number <= nc::nct::kSpindles ? static_cast<uint32_t>(number) : 1;
 }
 
-// Codes of synchronisation stay in the NC (l.9570); S is not a function with G92 and in G96.
+// The functions of a block. Synchronisation codes stay in the NC (l.9570); S is not a function with G92 and in G96.
 BlockFunctions Channel::collect(const ProgramBlock& block) const {
   const ChannelMotion& motion = run().motion;
   BlockFunctions functions;

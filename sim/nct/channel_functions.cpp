@@ -1,4 +1,4 @@
-// Functions handed to the PLC.
+// Functions that are sent to the PLC.
 #include "sim/nct/channel_functions.h"
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace {
 constexpr uint32_t kLines = nc::NctFunctions::kLines;
 constexpr uint32_t kFirstAuxiliary = nc::NctFunctions::kAuxiliary;
 static_assert(kCodesOfABlock == nc::NctFunctions::kCodes);
-constexpr int32_t kOffsetDigits = 100; // a lathe's T is tool and offset number, l.10674
+constexpr int32_t kOffsetDigits = 100; // T of a lathe: tool and offset number, l.10674
 } // namespace
 
 bool BlockFunctions::has(int32_t code) const { return std::ranges::find(codes, code) != codes.end(); }
@@ -50,7 +50,7 @@ uint32_t ChannelFunctions::unacknowledged(uint32_t mask) const {
   return open;
 }
 
-// The first range that reaches the speed (l.10664-10668), the last one when none does.
+// Selects the first range that reaches the speed (l.10664-10668), or the last one if none does.
 void ChannelFunctions::selectRange(const BlockFunctions& functions) {
   const SignalMemory& signals = links_.signals;
   int32_t range = 0;
@@ -60,7 +60,7 @@ void ChannelFunctions::selectRange(const BlockFunctions& functions) {
   signals.set(range_, channel_, nc::NctFunctions::kFirstRange + range);
 }
 
-// Where the tool is, if tool management works (l.9515-9522, 10732-10772).
+// Shows the place of the tool, if tool management is enabled (l.9515-9522, 10732-10772).
 void ChannelFunctions::showPlace(int32_t type) {
   const SignalMemory& signals = links_.signals;
   const bool managed = links_.tools->managed();
@@ -70,11 +70,11 @@ void ChannelFunctions::showPlace(int32_t type) {
   signals.set(toolExpired_, channel_, pick.expired);
 }
 
-// Reader of part programs.
+// Reads part programs.
 
 namespace {
 
-// Tenths, since G5.1 is one. What the channel does with them: channel_motion.cpp; the others do nothing here.
+// G codes in tenths, because of G5.1. channel_motion.cpp executes some of them; the others have no effect here.
 constexpr int kCodes[] = {0,   10,  20,  30,  40,  51,  90,  170, 180, 190, 200, 210, 280, 310, 330, 400, 410,
                           420, 430, 440, 490, 502, 512, 530, 540, 550, 560, 570, 580, 590, 610, 620, 630, 640,
                           740, 780, 800, 808, 818, 840, 842, 843, 900, 910, 920, 940, 950, 960, 970};

@@ -50,7 +50,7 @@ uint32_t ChannelMotion::spindle() const {
   return number >= 1 && number <= static_cast<int32_t>(nc::nct::kSpindles) ? static_cast<uint32_t>(number) - 1 : 0;
 }
 
-// The address of an auxiliary function is not an axis'.
+// The axis of a letter; negative if there is none. The address of an auxiliary function is not an axis.
 int32_t ChannelMotion::axisOf(char letter) const {
   for (const ParameterPlace& place : parameters_.auxiliary)
     if (links_.parameters->dword(place, channel_) == letter) return -1;
@@ -103,7 +103,7 @@ void ChannelMotion::takeCode(int tenths, Words& words) {
   case 920: words.speedLimit = 0; break;
   case 960:
   case 970: surface_ = tenths == 960; break;
-  default: break; // planes, compensations, zero points: nothing here depends on them
+  default: break; // planes, compensations, zero points have no effect here
   }
 }
 
@@ -141,7 +141,7 @@ ChannelMotion::Words ChannelMotion::read(const ProgramBlock& block) {
   return words;
 }
 
-// ---- the way of a block ------------------------------------------------------------------------------------------
+// ---- the path of a block -----------------------------------------------------------------------------------------
 
 void ChannelMotion::add(uint32_t axes, const Position& target, uint32_t flags) {
   if (axes == 0 || count_ >= kWaypoints) return;
@@ -165,7 +165,7 @@ void ChannelMotion::prepare(const ProgramBlock& block, bool locked) {
 void ChannelMotion::plan(const Words& words) {
   const bool check = words.exact || exactStop_;
   const bool positioningCheck = check || links_.parameters->bit(parameters_.execution, 0, channel_);
-  if (words.reference) { // over the point of the block to the first reference position
+  if (words.reference) { // through the point of the block to the first reference position
     add(words.axes, words.target, kReference);
     Position home = words.target;
     forBits(words.axes, [&](uint32_t axis) { home[axis] = links_.parameters->real(parameters_.reference1, axis); });
@@ -175,14 +175,14 @@ void ChannelMotion::plan(const Words& words) {
   if (motion_ == 0 || words.machine) return add(words.axes, words.target, positioningCheck ? kExact : 0);
   if (isDrilling(motion_)) return planDrilling(words);
   if (motion_ == 330) return add(words.axes, words.target, kFeed | kThread);
-  if (motion_ == 780) { // one cut and back
+  if (motion_ == 780) { // one cut and the return
     add(words.axes, words.target, kFeed | kThread | kThreadCycle);
     return add(words.axes, blockStart_, 0);
   }
   add(words.axes, words.target, kFeed | (check ? kExact : 0));
 }
 
-// Over the hole, to R, in and out with the tap.
+// Moves above the hole, to R, in and out with the tap.
 void ChannelMotion::planDrilling(const Words& words) {
   const int32_t found = axisOf('Z');
   if (words.axes == 0) return;
@@ -213,7 +213,7 @@ double ChannelMotion::way(const Waypoint& waypoint) const {
   return std::sqrt(sum);
 }
 
-// Per minute, before the override that the axes take.
+// The feed per minute, before the override, which the axes apply.
 double ChannelMotion::feed() const {
   const SignalMemory& signals = links_.signals;
   double feed = modes_.feedPerMinute(links_.spindles->speed(spindle()));
@@ -239,7 +239,7 @@ void ChannelMotion::start() {
   const Waypoint& waypoint = way_[next_];
   started_ = true;
   if (locked_) {
-    // Test goes through all of it, and positioning, with the highest feed.
+    // In test mode all motions have the highest feed, else only positioning.
     const bool fast = (waypoint.flags & kFeed) == 0 || links_.signals.get(signals_.toggle[0], channel_);
     const double perMinute = fast ? links_.parameters->real(parameters_.maxFeed, 0) : feed();
     restUs_ = way(waypoint) / std::max(perMinute, kLeastFeed) * kMinuteUs;
@@ -278,10 +278,10 @@ void ChannelMotion::cycle(bool running, int64_t us) {
       if (!feeds || machining())
         restUs_ -= static_cast<double>(us) * (feeds ? links_.signals.get(signals_.feedOverride, channel_) : 1);
     } else if (feeds && !arrived(way_[next_])) {
-      command(way_[next_]); // spindle speed, override and rapid key have their say
+      command(way_[next_]); // follows spindle speed, override and rapid key
     }
     if (arrived(way_[next_])) {
-      checking_ = (under() & kExact) != 0; // stops within N0516 at once: for one cycle
+      checking_ = (under() & kExact) != 0; // here it stops within N0516 at once, so for one cycle
       ++next_;
       started_ = false;
     }
@@ -297,7 +297,7 @@ void ChannelMotion::interrupt() {
   started_ = false;
 }
 
-// Both ways back are motions of the kind that was interrupted (l.9917-9945).
+// Both return motions are of the kind that was interrupted (l.9917-9945).
 void ChannelMotion::resume(bool toStart, bool toInterruption) {
   if (next_ >= count_ || (!toStart && !toInterruption)) return;
   const uint32_t from = toStart ? 0 : next_;

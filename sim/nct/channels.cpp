@@ -7,11 +7,11 @@
 namespace rung::sim::nct {
 namespace {
 
-constexpr uint32_t kGroups = 16; // of M codes that exclude each other
+constexpr uint32_t kGroups = 16; // groups of M codes that exclude each other
 constexpr uint32_t kFirstGroupStart = 1341;
 constexpr uint32_t kFirstGroupEnd = 1357;
 
-// The channel of an event, from 0; none: `otherwise`.
+// The channel of an event, from 0; `otherwise` (from 1) if it has no such key.
 std::optional<uint32_t> channelKey(const std::vector<NcArgument>& keys, int64_t otherwise) {
   const int64_t number = integerKey(keys, "channel", otherwise);
   if (number < 1 || number > static_cast<int64_t>(nc::nct::kChannels)) return std::nullopt;
@@ -69,7 +69,8 @@ Handled Channels::event(std::string_view name, const std::vector<NcArgument>& ke
   return std::string();
 }
 
-// Into the memory, and with a channel: for automatic mode there, unless the program forbids it (P_RUNAUT, l.8130).
+// Loads a program into the memory and, with a channel, selects it there for automatic mode, unless the program forbids
+// it (P_RUNAUT, l.8130).
 std::string Channels::load(const std::vector<NcArgument>& keys) {
   if (std::string wrong = unknownKey("program", keys, {"channel", "number", "blocks"}); !wrong.empty()) return wrong;
   const int64_t number = integerKey(keys, "number", 0);
@@ -95,7 +96,7 @@ std::string Channels::load(const std::vector<NcArgument>& keys) {
   return {};
 }
 
-// Two codes of one group in a block: "Contradictory M-codes" (l.10865).
+// Checks for two codes of one group in a block: "Contradictory M-codes" (l.10865).
 std::string Channels::checkGroups(const ChannelProgram& program, uint32_t channel) const {
   for (const ProgramBlock& block : program.blocks)
     for (uint32_t group = 0; group < kGroups; ++group) {
@@ -162,7 +163,7 @@ void Channels::keep(Kept& kept) {
   }
 }
 
-// All channels that execute and take part wait at the same code: they continue together.
+// If all executing channels that take part wait at the same code, they continue together.
 void Channels::releaseWaiting() {
   for (uint32_t i = 0; i < nc::nct::kChannels; ++i) {
     const int32_t code = channels_[i]->waiting();
@@ -173,7 +174,7 @@ void Channels::releaseWaiting() {
   }
 }
 
-// The RESET key (l.6558), pressed by an event, or by a write to the signal: then for all channels.
+// The RESET key (l.6558), pressed by an event, or by a write to the signal, which resets all channels.
 void Channels::followResetKey() {
   const SignalMemory& signals = links().signals;
   const bool down = signals.get(resetKey_);

@@ -13,14 +13,14 @@ namespace rung::sim::nct {
 namespace {
 
 constexpr int32_t kCurrent = 1;          // transmitted in units of 10 mA (l.4230)
-constexpr double kPitch = 10;            // mm (degrees) that an axis' motor moves in a revolution
-constexpr double kRatedSpeed = 3000;     // 1/min, of load 100 %
+constexpr double kPitch = 10;            // mm (degrees) per revolution of an axis motor
+constexpr double kRatedSpeed = 3000;     // 1/min, at 100 % load
 constexpr double kRatedCurrent = 10;     // A
 constexpr double kRatedPower = 5;        // kW
 constexpr double kBusVoltage = 560;      // V
 constexpr double kMotorTemperature = 40; // °C
 
-// What a datum of the motor can be: the manual names code 82 and no limits.
+// Limits of a datum of the motor: the manual has code 82, but no limits.
 struct Limits {
   int32_t least, most;
 };
@@ -29,7 +29,7 @@ constexpr Limits kLimits[kDriveData] = {{-100'000, 100'000}, {-100'000, 100'000}
 
 } // namespace
 
-// An axis or a spindle has the drive of this address (N0501, N0601).
+// Whether an axis or a spindle has the drive of this address (N0501, N0601).
 bool Drives::addressed(uint32_t drive) const {
   const Parameters& parameters = *links().parameters;
   for (uint32_t i = 0; i < nc::nct::kAxes; ++i)
@@ -93,7 +93,7 @@ std::optional<int32_t> Drives::service(uint32_t, Block& block) {
 
 // ---- signals, events ---------------------------------------------------------------------------------------------
 
-// The drive is enabled while DP_ENA1=0 and DP_ENA2=1 (l.7240-7250); an error takes DN_RDY away until DP_ERRCLR.
+// The drive is enabled while DP_ENA1=0 and DP_ENA2=1 (l.7240-7250); an error resets DN_RDY until DP_ERRCLR.
 void Drives::timeSlice() {
   readAddresses();
   const SignalMemory& signals = links().signals;
@@ -135,7 +135,7 @@ void Drives::powerOn(nc::PowerOn) {
 
 // Inputs that follow outputs.
 
-// NAME, NAME.BB of a double word, with ,#INDEX after it.
+// Parses NAME, or NAME.BB for a bit of a double word, with an optional ,#INDEX.
 std::optional<Wiring::Place> Wiring::place(std::string_view name) {
   const size_t comma = std::min(name.find(",#"), name.size());
   const auto index =
@@ -170,7 +170,7 @@ Handled Wiring::config(std::string_view key, std::string_view value) {
   return "";
 }
 
-// Everything has been as it is for long.
+// At power-on all wires are in a steady state.
 void Wiring::powerOn(nc::PowerOn) {
   for (Wire& wire : wires_) {
     wire.level = links().signals.bit(wire.source.word, wire.source.bit);

@@ -51,7 +51,7 @@ int32_t MemoryLine::listen(uint16_t port) {
 int32_t MemoryLine::connect(Endpoint to, int) {
   close();
   End& theirs = other_->next();
-  // One that waits to be accepted is all that a server keeps.
+  // A server keeps at most one client that waits to be accepted.
   if (other_->role_ != Role::Server || other_->port_ != to.port || theirs.open) return kWindowsRefused;
   role_ = Role::Client;
   current().open = theirs.open = true;
@@ -64,7 +64,7 @@ void MemoryLine::accept() {
   if (role_ == Role::Server && !current().open && next().open) current_ = 1 - current_;
 }
 
-// What was sent before can still be received at the other side.
+// The other side can still receive data sent before.
 void MemoryLine::closeEnd(End& end) {
   if (end.peer != nullptr) end.peer->peer = nullptr;
   end.open = false;

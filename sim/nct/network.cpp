@@ -8,8 +8,8 @@ namespace rung::sim::nct {
 
 namespace {
 
-constexpr int64_t kConnectUs = 5'000'000; // until an unanswered connection has failed
-constexpr int kSettleMs = 100;            // on the virtual clock: the loopback needs no time of the program
+constexpr int64_t kConnectUs = 5'000'000; // timeout of a connection attempt
+constexpr int kSettleMs = 100;            // real time to wait with a virtual clock, on which the loopback takes no time
 
 } // namespace
 
@@ -20,7 +20,7 @@ bool Network::serves(bool write, uint32_t function) const {
 std::optional<int32_t> Network::service(uint32_t function, Block& block) {
   const int32_t amount = block.amount();
   const bool data = function == 62 || function == 63;
-  // The table has words up to 7, the text amounts up to 5: 6 reaches the port (l.4029).
+  // The table has words up to 7, the text amounts up to 5: 6 includes the port (l.4029).
   if (function == 60 && amount != 5) return 2;
   if (function == 61 && amount != 1) return 2; // "always 2" below the table (l.3997)
   if (data && (amount < 3 || amount > 6)) return 2;
@@ -31,7 +31,7 @@ std::optional<int32_t> Network::service(uint32_t function, Block& block) {
     return 0;
   }
   if (block.word(4) < 1 || block.word(4) > static_cast<int32_t>(kMostNetworkWords)) return 64;
-  line_->accept(); // a server's client, or the next one when the last has gone
+  line_->accept(); // accepts a server's client, or the next one after a disconnect
   if (protocol_ == Protocol::None || connecting_) return 63;
   if (function == 62) return receive(block);
   return send(block);
@@ -83,14 +83,14 @@ void Network::close() {
 
 // ---- data --------------------------------------------------------------------------------------------------------
 
-// A word of the answer goes only where the program's block reaches: optional data (l.4034).
+// Optional words of the answer are written only within the program's block (l.4034).
 int32_t Network::failed(Block& block, int32_t error) {
   if (block.amount() >= 4) block.setWord(5, error);
   return 62;
 }
 
 int32_t Network::receive(Block& block) {
-  // Word 0000 is the program's flags.
+  // Word 0000 has the program's flags.
   if (block.word(3) < 1 || !links().memory.contains(block.word(3), block.word(4))) return failed(block, kWindowsFault);
   return line_->isOpen() ? take(block) : 65;
 }
@@ -100,7 +100,7 @@ int32_t Network::take(Block& block) {
   const size_t room = static_cast<size_t>(block.word(4)) * 4;
   const bool stream = protocol_ != Protocol::Udp;
   Received received = line_->receive(std::span(bytes).first(room), stream);
-  // A stream is taken word by word; what is left of a word waits for the rest.
+  // A stream is read in whole words; an incomplete word waits for its remaining bytes.
   if (stream && received.bytes >= 4)
     received = line_->receive(std::span(bytes).first(received.bytes / 4 * 4), false);
   else if (stream && received.bytes > 0)
@@ -152,7 +152,7 @@ std::optional<int32_t> Network::send(Block& block) {
   return 0;
 }
 
-// True: nothing is left.
+// Sends pending bytes. True: none is left.
 bool Network::flush() {
   if (unsentBytes_ == 0) return true;
   const Sent sent = line_->send(std::span(unsent_).subspan(unsentAt_, unsentBytes_));
@@ -178,7 +178,7 @@ Handled Network::config(std::string_view key, std::string_view value) {
 
 Handled Network::event(std::string_view, const std::vector<NcArgument>& keys) {
   if (!isolated()) return "event device needs 'config network isolated'";
-  line_->accept(); // so that a client that has gone makes room for the next one
+  line_->accept(); // so that a disconnected client is replaced by the next one
   return device_.event(keys, port_);
 }
 
@@ -197,7 +197,7 @@ void Network::powerOn(nc::PowerOn) {
   device_.close();
 }
 
-// The device on the network.
+// The simulated device on the network.
 
 std::string NetworkDevice::open(std::string_view role, uint16_t port) {
   messageBytes_ = 0;
@@ -208,7 +208,7 @@ std::string NetworkDevice::open(std::string_view role, uint16_t port) {
   return line_.connect({0, port}, 0) == 0 ? "" : "no server listens on port " + std::to_string(port);
 }
 
-// WORDS words; those that the event does not name are 0.
+// Sends as many words as `send` says; words that the event does not name are 0.
 std::string NetworkDevice::send(const std::vector<NcArgument>& keys, uint16_t control) {
   const int64_t words = integerKey(keys, "send", 0);
   if (words < 1 || words > kMostNetworkWords) return "event device: send=1 to 350 words";

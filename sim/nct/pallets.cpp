@@ -35,7 +35,7 @@ std::optional<PalletName> palletName(std::string_view name) {
   return result;
 }
 
-// PROGRAM, PROGRAM1 … PROGRAM64: from 0; 64 when it is another name.
+// The index, from 0, of PROGRAM, PROGRAM1 … PROGRAM64; 64 for any other name.
 uint32_t programIndex(std::string_view name) {
   constexpr std::string_view kProgram = "PROGRAM";
   if (!text::takePrefixIgnoringCase(name, kProgram)) return kMaxPrograms;
@@ -101,7 +101,7 @@ Handled PalletManagement::config(std::string_view key, std::string_view value) {
   const std::optional<PalletName> pallet = palletName(name);
   if (!pallet) return "a key of a pallet is pallet.MAGAZINE.PLACE.COLUMN";
   if (palletColumn(pallet->column) == 0 && programIndex(pallet->column) == kMaxPrograms) return "no such column";
-  settings_.push_back({std::move(name), *number}); // the parameters may come later
+  settings_.push_back({std::move(name), *number}); // the parameters may be set later
   return std::string();
 }
 
@@ -126,7 +126,8 @@ Handled PalletManagement::setQuantity(std::string_view name, double value) {
 
 // ---- the operator ------------------------------------------------------------------------------------------------
 
-// What the program has locked (P_PTTAB) the operator cannot change, nor the working space in automatic mode (l.5333).
+// The operator cannot change data that the program has locked (P_PTTAB), nor the working space in automatic mode
+// (l.5333).
 Handled PalletManagement::event(std::string_view name, const std::vector<NcArgument>& keys) {
   if (const NcArgument* edit = findKey(keys, "edit")) {
     editing_ = edit->integer != 0;
@@ -148,7 +149,7 @@ Handled PalletManagement::event(std::string_view name, const std::vector<NcArgum
 
 std::string PalletManagement::editPlace(PalletPlace place, const std::vector<NcArgument>& keys) {
   const NcArgument* identifier = findKey(keys, "id");
-  if (identifier != nullptr && identifier->integer == 0) table_.row(place) = PalletRow(); // taken away
+  if (identifier != nullptr && identifier->integer == 0) table_.row(place) = PalletRow(); // removes the pallet
   if (identifier != nullptr && identifier->integer != 0) {
     const auto known = table_.find(plan(), static_cast<int32_t>(identifier->integer));
     if (known && *known != place && known->magazine != kVirtualMagazine) return "the pallet is in another place";
@@ -184,8 +185,8 @@ constexpr int32_t kNoPallet = 339;
 constexpr int32_t kNotFound = 341;
 constexpr int32_t kWorkingSpaceEmpty = 342;
 
-constexpr uint32_t kFirstColumnWord = 4; // of a record: the identifier, l.5506
-// The order of the columns in a record: without the programs (l.5523).
+constexpr uint32_t kFirstColumnWord = 4; // first column in a record: the identifier, l.5506
+// The columns of a record in order, without the programs (l.5523).
 constexpr std::array<PalletColumn, 9> kRecord = {
     kPalletId, kPalletStatus, kPalletPriority, kPalletExecuted, kPalletAssigned, kPalletCustom1, 8, 9, 10};
 
@@ -207,7 +208,7 @@ void answer(Block& block, uint32_t word, PalletColumn column, const PalletRow& r
     block.setWord(word, column == kPalletPrograms ? row.programs[0] : row.words[column]);
 }
 
-// The status of a place without a pallet can be read and written, its pallet be named.
+// Whether the datum needs a pallet: without one, only status and identifier can be read and written.
 bool needsPallet(int32_t number) {
   return number != static_cast<int32_t>(kPalletId) && number != static_cast<int32_t>(kPalletStatus);
 }
@@ -285,7 +286,7 @@ int32_t PalletManagement::checkWord(PalletColumn column, int32_t value, PalletPl
     if (value < 1 || value > kMaxPalletId) return kWrongId;
     const std::optional<PalletPlace> other = table_.find(plan(), value);
     const bool taken = other && *other != place && other->magazine != kVirtualMagazine;
-    return taken ? kWrongId : static_cast<int32_t>(nc::nct::kExecuted); // a pallet is in one place
+    return taken ? kWrongId : static_cast<int32_t>(nc::nct::kExecuted); // a pallet can be in one place only
   }
   case kPalletPriority:
     return value < 0 || value > kMaxPriority ? kWrongPriority : static_cast<int32_t>(nc::nct::kExecuted);
@@ -311,7 +312,7 @@ int32_t PalletManagement::writePallet(Block& block) {
   if (!table_.row(place).hasPallet()) return kNoPallet;
   const int32_t identifier = block.word(kFirstColumnWord);
   if (const int32_t code = checkWord(kPalletId, identifier, place); code != nc::nct::kExecuted) return code;
-  // What the place will hold: the data that the virtual magazine has of the pallet, then those of the block.
+  // The new contents of the place: the pallet's data in the virtual magazine, overwritten by those of the block.
   const std::optional<PalletPlace> known = table_.find(plan(), identifier);
   PalletRow row = table_.row(known ? *known : place);
   uint32_t word = kFirstColumnWord;
@@ -340,7 +341,7 @@ int32_t PalletManagement::readPallet(Block& block) {
   return nc::nct::kExecuted;
 }
 
-// One program needs no number of programs, several do (l.5661): the amount is 3 and that number.
+// Several programs need the number of programs, one does not (l.5661): the amount is 3 plus that number.
 int32_t PalletManagement::writePrograms(Block& block, PalletRow& row) {
   const int32_t programs = std::max(row.word(kPalletAssigned), 1);
   if (block.amount() != 3 + programs) return nc::nct::kBadAmount;
@@ -354,7 +355,7 @@ int32_t PalletManagement::writePrograms(Block& block, PalletRow& row) {
 int32_t PalletManagement::writeDatum(Block& block) {
   const int32_t number = block.word(4);
   const auto column = static_cast<PalletColumn>(number);
-  if (block.amount() < 4 || !hasColumn(number)) return nc::nct::kBadAmount; // no code is printed for a wrong number
+  if (block.amount() < 4 || !hasColumn(number)) return nc::nct::kBadAmount; // the manual has no code for a wrong number
   if (column != kPalletPrograms && block.amount() != static_cast<int32_t>(3 + palletColumnWords(column)))
     return nc::nct::kBadAmount;
   if (locked()) return nc::nct::kWriteProtected;
@@ -407,8 +408,8 @@ bool PalletManagement::matches(PalletColumn column, int32_t value, const PalletR
   return std::find(row.programs.begin(), end, value) != end;
 }
 
-// Statuses are searched in all places of the pool, other data in those with a pallet. Of several pallets that are ready
-// for exchange the one with the lowest priority number is taken, else the nearest (l.5775-5781).
+// Statuses are searched in all places of the pool, other data only in places with a pallet. Of several pallets that are
+// ready for exchange the one with the lowest priority number is found, else the nearest (l.5775-5781).
 int32_t PalletManagement::search(Block& block) {
   if (block.amount() != 6) return nc::nct::kBadAmount;
   const int32_t number = block.word(2);
@@ -442,7 +443,7 @@ int32_t PalletManagement::search(Block& block) {
   return nc::nct::kExecuted;
 }
 
-// The amount counts the data number, magazine and place too: the example with 10 has seven values (l.5852-5866).
+// The amount includes data number, magazine and place: the example with 10 has seven values (l.5852-5866).
 int32_t PalletManagement::readColumn(Block& block) {
   const int32_t number = block.word(2);
   const auto column = static_cast<PalletColumn>(number);
@@ -470,7 +471,7 @@ int32_t PalletManagement::selectProgram(Block& block) {
   if (channels.busy(index)) return kProgramRuns; // l.5892
   if (!plan().enabled) return kWorkingSpaceEmpty;
   const PalletRow& row = table_.row({kWorkingSpace, 1});
-  // Always the identifier of the pallet in the working space (l.5894): another one is not there.
+  // The identifier must be that of the pallet in the working space (l.5894).
   if (!row.hasPallet() || row.word(kPalletId) != block.word(2)) return kWorkingSpaceEmpty;
   const auto next = static_cast<uint32_t>(row.word(kPalletExecuted));
   if (next >= static_cast<uint32_t>(row.word(kPalletAssigned))) return kNoProgram;

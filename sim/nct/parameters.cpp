@@ -19,7 +19,7 @@ constexpr uint32_t kFirstBits = 1201; // the PLC constants (man. 7.11)
 constexpr uint32_t kFirstDword = 1209;
 constexpr uint32_t kFirstDouble = 1241;
 
-// Where the values of a parameter begin, in the order of the rows.
+// The index of the first value of a parameter, in the order of the rows.
 uint32_t firstOf(const nc::nct::ParameterRow& wanted, uint32_t number) {
   uint32_t first = 0;
   for (const nc::nct::ParameterRow& row : nc::nct::parameterRows()) {
@@ -35,7 +35,7 @@ uint32_t bitOf(double value, uint32_t bit) { return (static_cast<uint32_t>(value
 
 ParameterPlace::ParameterPlace(uint32_t number) {
   const nc::nct::ParameterRow* row = nc::nct::findParameter(number);
-  if (row == nullptr) std::abort(); // the numbers are in this code alone
+  if (row == nullptr) std::abort(); // the numbers come from this code only
   first_ = firstOf(*row, number);
   count_ = valuesOf(row->index);
 }
@@ -66,7 +66,7 @@ void Parameters::powerOn(nc::PowerOn kind) {
     values_ = initial_;
     changed();
   }
-  ++revision_; // what was kept may have come back
+  ++revision_; // retained values may have been restored
   writeConstants();
 }
 
@@ -75,7 +75,7 @@ void Parameters::keep(Kept& kept) {
   kept.value(checksum_);
 }
 
-// N1201… as N_Pij, N_PDW1 and N_PDB1 (man. 7.11).
+// Writes N1201… to N_Pij, N_PDW1 and N_PDB1 (man. 7.11).
 void Parameters::writeConstants() const {
   const SignalMemory& signals = links().signals;
   const uint32_t bits = firstOf(*nc::nct::findParameter(kFirstBits), kFirstBits);
@@ -113,8 +113,8 @@ Parameters::Found Parameters::find(int32_t number, int32_t index) const {
   return found;
 }
 
-// The upper limit of the amount is printed one value too low (l.3708 and so on): "max. n+2" for n values (l.3679) and
-// the example with axes 2 and 3 hold.
+// The upper limit of the amount is printed one value too low (l.3708 and others): "max. n+2" for n values (l.3679) and
+// the example with axes 2 and 3 are right.
 std::optional<int32_t> Parameters::service(uint32_t function, Block& block) {
   const bool doubles = function == kReadDouble || function == kWriteDouble;
   const bool write = function == kWriteDword || function == kWriteDouble;
@@ -144,7 +144,7 @@ std::optional<int32_t> Parameters::service(uint32_t function, Block& block) {
 
 // ---- configuration, events, quantities ---------------------------------------------------------------------------
 
-// "N0516.2" is parameter 516 of axis 2; without an index the value holds for all of them.
+// "N0516.2" is parameter 516 of axis 2; without an index the value applies to all axes.
 std::string Parameters::setConfigured(const std::vector<uint32_t>& key, double value, std::vector<double>& values) {
   const nc::nct::ParameterRow* row = key.size() <= 2 ? nc::nct::findParameter(key[0]) : nullptr;
   if (row == nullptr) return "there is no such parameter (rungc doc nct lists them)";
@@ -211,7 +211,7 @@ uint32_t asWord(double value) {
   return std::abs(value) < 4294967296.0 ? static_cast<uint32_t>(static_cast<int64_t>(value)) : 0;
 }
 
-// Variable `n` of one of the two groups: its bits, its double word, its doubles.
+// Reads variable `n` of one of the two groups: bits, double word, doubles.
 double groupRead(const SignalMemory& signals, const WordSignal& bits, const RealSignal (&reals)[3], uint32_t n,
                  uint32_t channel) {
   const auto word = static_cast<uint32_t>(signals.get(bits, channel));
@@ -297,8 +297,8 @@ Nvram::Nvram(Links& links) : Topic(links), checksum_(sumOf(words_)) {}
 
 bool Nvram::serves(bool write, uint32_t function) const { return function == (write ? kWrite : kRead); }
 
-// The codes in the order of the manual (l.3586-3598, 3627-3636), but for the checksum: a request that is wrong in
-// itself is answered as that. A destination that reaches beyond word 9999 is the PLC address' error (11).
+// Errors are checked in the order of the manual (l.3586-3598, 3627-3636), except the checksum: the error of an invalid
+// request comes first. A destination beyond word 9999 is an error of the PLC address (11).
 std::optional<int32_t> Nvram::service(uint32_t function, Block& block) {
   if (block.amount() != 3) return 2;
   const int32_t first = block.word(2);
@@ -318,7 +318,7 @@ std::optional<int32_t> Nvram::service(uint32_t function, Block& block) {
       word = memory.word(place);
     ++place;
   }
-  if (function == kWrite) checksum_ = sumOf(words_); // l.3606: the code follows the new checksum
+  if (function == kWrite) checksum_ = sumOf(words_); // l.3606: the new checksum is made before the answer
   return 0;
 }
 
@@ -359,8 +359,8 @@ void Nvram::keep(Kept& kept) {
 bool ProgramSelection::serves(bool write, uint32_t function) const { return write && function == 40; }
 
 // Code 2 is printed as "not 1", the amount as "always 2" (l.3905-3925). A request waits while a program runs, CN_START
-// or CN_STOP (l.5890): its output is not TRUE until then (l.3899). Word 3 is printed as 0 after the execution
-// (l.3919). The codes of other functions (6.29) are taken for what this one's table leaves out: 41 for the channel.
+// or CN_STOP (l.5890): its output is not TRUE until then (l.3899). Word 3 is printed as 0 after the execution (l.3919).
+// Codes of other functions (6.29) fill gaps of this function's table: 41 for the channel.
 std::optional<int32_t> ProgramSelection::service(uint32_t, Block& block) {
   if (block.amount() != 2) return 2;
   const int32_t number = block.word(2);

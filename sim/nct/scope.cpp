@@ -19,7 +19,7 @@ double slice(const Links& c) { return static_cast<double>(c.sliceUs) * 1e-6; }
 
 constexpr Read kZero = [](const Links&, uint32_t, uint32_t) -> double { return 0; };
 
-// The axes: positions of the command and of the encoder, which follows by the lag.
+// The axes: commanded positions, and those of the encoder, which follow by the lag.
 double axisCommand(const Links& c, uint32_t axis, uint32_t) { return c.axes->machinePosition(axis - 1); }
 double axisVelocity(const Links& c, uint32_t axis, uint32_t) { return c.axes->velocity(axis - 1); }
 double axisLag(const Links& c, uint32_t axis, uint32_t) { return c.axes->lag(axis - 1); }
@@ -32,7 +32,7 @@ double axisTurned(const Links& c, uint32_t axis, uint32_t) {
   return position < 0 ? position + 360 : position;
 }
 
-// The spindles; what belongs to a closed loop is 0 without one.
+// The spindles; quantities of a closed loop are 0 without one.
 double spindlePosition(const Links& c, uint32_t n, uint32_t) { return c.spindles->position(n - 1); }
 double spindleTurns(const Links& c, uint32_t n, uint32_t) { return c.spindles->speed(n - 1) / 60; }
 double spindleSpeed(const Links& c, uint32_t n, uint32_t) { return c.spindles->speed(n - 1); }
@@ -59,7 +59,8 @@ double blocksAhead(const Links& c, uint32_t channel, uint32_t) { return c.channe
 
 double driveDatum(const Links& c, uint32_t drive, uint32_t datum) { return c.drives->datum(drive, datum); }
 
-// The time of the control's threads is not simulated: the same on every machine and engine, in microseconds.
+// The times of the control's threads are not simulated: constants in microseconds, the same on every machine and
+// engine.
 template <int32_t Us>
 double threadTime(const Links&, uint32_t, uint32_t) {
   return Us;
@@ -138,7 +139,7 @@ Read readOf(std::string_view name) {
 Scope::Scope(const Links& links) : links_(links) {
   for (const nc::nct::ScopeSymbol& symbol : nc::nct::scopeSymbols()) {
     reads_.push_back(readOf(symbol.name));
-    if (reads_.back() == nullptr) std::abort(); // a row without its quantity
+    if (reads_.back() == nullptr) std::abort(); // the row has no quantity
   }
 }
 

@@ -11,7 +11,7 @@ namespace rung::sim::nct {
 
 bool Screen::serves(bool write, uint32_t function) const { return write && function == 70; }
 
-// A parameter that the amount leaves out is 0. No execution code is there for a parameter of a wrong value.
+// Parameters beyond the amount are 0. There is no execution code for a wrong parameter value.
 std::optional<int32_t> Screen::service(uint32_t, Block& block) {
   const int32_t amount = block.amount();
   if (amount < 2 || amount > 4) return 2;
@@ -56,7 +56,7 @@ constexpr uint32_t kRead = 201;
 constexpr uint32_t kWrite = 202;
 constexpr int64_t kTimeoutUs = 1'000'000;
 
-// Abort codes of CANopen and errors of Sercos that devices answer with.
+// Abort codes of CANopen and error codes of Sercos in answers of devices.
 constexpr uint32_t kCoeNoObject = 0x06020000;
 constexpr uint32_t kCoeNoSubindex = 0x06090011;
 constexpr uint32_t kCoeWrongAccess = 0x06010000;
@@ -101,7 +101,7 @@ EthercatObject* Mailbox::find(const Device& device, Protocol protocol, uint32_t 
   return nullptr;
 }
 
-// A mailbox answers in a later cycle than that of the request.
+// A mailbox answers in a later cycle than the request.
 std::optional<int32_t> Mailbox::service(uint32_t function, Block& block) {
   const bool write = function == kWrite;
   if (!fits(block.word(2), block.amount())) return 2;
@@ -128,7 +128,7 @@ std::optional<int32_t> Mailbox::service(uint32_t function, Block& block) {
   return finish(write, block, device->error != 0 ? device->error : exchange(write, block, *device, protocol));
 }
 
-// Data that were read go to the program's memory; an object that is longer than the program waits for is its error.
+// Data that were read are written to the program's memory; an object longer than the program expects is an error.
 int32_t Mailbox::finish(bool write, Block& block, uint32_t error) {
   if (block.amount() >= 6) block.setWord(7, static_cast<int32_t>(error));
   if (error != 0) return 205;
@@ -151,9 +151,9 @@ uint32_t Mailbox::exchange(bool write, Block& block, Device& device, Protocol pr
   case Protocol::Soe: return exchangeSoe(write, block, device);
   case Protocol::Voe: break;
   }
-  // Vendor's data: the device gives back what it was given last.
+  // Vendor data: the device returns the last data written.
   if (write) {
-    device.vendor.resize(size_); // has room for all that a mailbox holds
+    device.vendor.resize(size_); // has room for the contents of a mailbox
     std::memcpy(device.vendor.data(), buffer_.data(), size_);
     return 0;
   }
@@ -184,7 +184,7 @@ uint32_t Mailbox::exchangeCoe(bool write, Block& block, Device& device) {
   return 0;
 }
 
-// CompleteAccess: the subindices from 0 or 1 on, one after the other; subindex 0 takes two bytes.
+// CompleteAccess: all subindices from 0 or 1 on, concatenated; subindex 0 takes two bytes.
 uint32_t Mailbox::exchangeWhole(bool write, Device& device, uint32_t index, uint32_t sub) {
   if (sub > 1) return kCoeWrongAccess;
   size_t at = 0;

@@ -1,5 +1,5 @@
-// The simulated NC beside an NCT PLC: that it is a simulation, axes that go to the PLC on request, and in simulated
-// mode the whole machine (nct/simulator.h).
+// The simulated NC of an NCT PLC: axes are assigned to the PLC on request, and in simulated mode the whole machine is
+// simulated (nct/simulator.h).
 #include <algorithm>
 #include <utility>
 
@@ -29,7 +29,7 @@ public:
     if (kind == nc::PowerOn::Warm && byEthercat_) loseRetained(instance);
     control_.signals().set(onSimulator_, true);
     control_.signals().set(nvramByEthercat_, byEthercat_);
-    if (ran_) ownAcknowledge_ = 0; // written before the first power-on, it holds
+    if (ran_) ownAcknowledge_ = 0; // written before the first power-on, it stays
     ran_ = false;
     requested_ = 0;
     if (simulated_)
@@ -110,13 +110,14 @@ protected:
   }
 
 private:
-  // Controls whose non-volatile memory lies on EtherCAT do not keep PLCNVRAM (man. l.8061).
+  // Controls whose non-volatile memory is on EtherCAT do not retain PLCNVRAM (man. l.8061).
   static void loseRetained(runtime::Instance& instance) {
     std::vector<uint8_t> nothing(instance.retainedSize());
     instance.restoreRetained(nothing);
   }
 
-  // Scripted, an axis goes to the PLC on request, unless the scenario says otherwise afterwards (inventory 8).
+  // In scripted mode an axis is assigned to the PLC on request, unless the scenario changes that afterwards (inventory
+  // 8).
   void giveAxes() {
     for (uint32_t i = 0; i < plcAxis_.count(); ++i) {
       const bool request = control_.signals().get(plcAxisRequest_, i);
@@ -126,7 +127,8 @@ private:
     }
   }
 
-  // The operator's buttons: CANCEL alone, or the message that NUMBER, CHANNEL and INDEX name, or ALL=1.
+  // The operator's buttons: CANCEL for the top message, with NUMBER, CHANNEL and INDEX for a selected one, with ALL=1
+  // for all.
   std::string cancel(const std::vector<NcArgument>& keys) {
     if (std::string wrong = unknownKey(kCancel, keys, {"number", "channel", "index", "all"}); !wrong.empty())
       return wrong;
@@ -143,7 +145,7 @@ private:
     return {};
   }
 
-  // If a program writes AN_PLCA of an axis, it acknowledges from then on.
+  // If the scenario writes AN_PLCA of an axis, it acknowledges this axis from then on.
   void noteWritten(const runtime::Ref& place) const {
     const nc::Signal& acknowledge = *findSignal(nc::nctSignals(), "AN_PLCA");
     const uint32_t first = acknowledge.byteOffset + acknowledge.bit / 8;
@@ -163,9 +165,9 @@ private:
   nc::nct::BitSignal plcAxis_{"AN_PLCA"};
   nc::NctControl control_;
   nct::Simulator simulator_;
-  bool ran_ = false;                    // a cycle, since the power-on
+  bool ran_ = false;                    // a cycle has run since the power-on
   mutable uint32_t ownAcknowledge_ = 0; // axes whose AN_PLCA the scenario writes
-  uint32_t requested_ = 0;              // AP_PLCR of the cycle before, a bit an axis
+  uint32_t requested_ = 0;              // AP_PLCR of the last cycle, a bit for each axis
 };
 
 std::string SimulatedNct::config(std::string_view key, std::string_view value) {

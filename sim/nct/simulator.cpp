@@ -117,7 +117,7 @@ bool isOfArrays(ServiceKind kind) { return kind == ServiceKind::ReadArray || kin
 
 } // namespace
 
-// MACR, MACW, SCP, MOVCMND (man. 6.15-6.17). A refusal is FL_ER=1 in the box.
+// MACR, MACW, SCP, MOVCMND (man. 6.15-6.17). A refusal sets FL_ER=1 in the box.
 Simulator::Outcome Simulator::answer(ServiceKind kind, const int64_t* args, core::ServiceReply& reply) {
   const auto give = [&](std::optional<double> value) {
     if (!value) return Outcome::Refused;

@@ -82,7 +82,7 @@ int32_t Socket::open(int type, Endpoint own) {
   if (!isLoopback(own.address)) return kWindowsUnreachable;
   fd_ = ::socket(AF_INET, type | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
   const int on = 1;
-  // A server's port is free again at once; a second server on it is refused all the same.
+  // A server's port can be reused at once; a second server on it is still refused.
   if (fd_ >= 0 && type == SOCK_STREAM) ::setsockopt(fd_, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
   const sockaddr_in address = systemAddress(own);
   if (fd_ >= 0 && ::bind(fd_, generic(address), sizeof address) == 0) return 0;

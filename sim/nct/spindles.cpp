@@ -9,7 +9,7 @@
 namespace rung::sim::nct {
 namespace {
 
-constexpr uint32_t kFirstDrive = 33; // drives of spindles come after those of the axes
+constexpr uint32_t kFirstDrive = 33; // drives of spindles follow those of the axes
 constexpr uint32_t kAll = (uint32_t{1} << nc::nct::kSpindles) - 1;
 
 } // namespace
@@ -60,7 +60,8 @@ Spindles::Order Spindles::orderOf(uint32_t asked) const {
   return signals_.closeLoop.in(asked) ? Order::CloseLoop : Order::None;
 }
 
-// SN_NCOM's rules (l.9212-9220), but for constant surface speed, which the program copies to SP_PRG.
+// The speed by the rules of SN_NCOM (l.9212-9220), except for constant surface speed, which the program copies to
+// SP_PRG.
 double Spindles::rotationSpeed(uint32_t spindle) const {
   const uint32_t range = gear(spindle);
   const double direction = get(signals_.negative, spindle) ? -1 : 1;
@@ -82,7 +83,7 @@ bool Spindles::ramp(uint32_t spindle, double target) {
   return std::abs(state.command - target) < kNear;
 }
 
-// ---- orders ------------------------------------------------------------------------------------------------------
+// ---- commands ----------------------------------------------------------------------------------------------------
 
 void Spindles::step(uint32_t spindle, Order order) {
   Spindle& state = spindles_[spindle];
@@ -104,8 +105,8 @@ void Spindles::step(uint32_t spindle, Order order) {
   turn(spindle);
 }
 
-// The way to the orientation position (N0684, l.8983-9000): on from a turning spindle in its direction, from standstill
-// in that of SP_NEG, or the shorter one.
+// The distance to the orientation position (N0684, l.8983-9000): a turning spindle keeps its direction; from standstill
+// it is that of SP_NEG, or the shorter one.
 double Spindles::orientationWay(uint32_t spindle) const {
   const Spindle& state = spindles_[spindle];
   const double to = real(parameters_.gridShift, spindle) / 360;
@@ -152,7 +153,7 @@ void Spindles::orient(uint32_t spindle) {
   state.positioning = false;
 }
 
-// The slave takes the speed of its master (l.9026-9034), then its phase.
+// The slave adopts the speed of its master (l.9026-9034), then its phase.
 void Spindles::synchronise(uint32_t spindle) {
   Spindle& state = spindles_[spindle];
   const uint32_t other = master(spindle);
@@ -186,7 +187,7 @@ void Spindles::turn(uint32_t spindle) {
 
 // ---- time --------------------------------------------------------------------------------------------------------
 
-// Masters turn before their slaves, so that a slave follows the speed of this time slice.
+// Masters are stepped before their slaves, so that a slave follows the speed of the same time slice.
 void Spindles::timeSlice() {
   const uint32_t there = existing();
   if (resting_ && seen_.areSame(links().signals)) return;
@@ -292,7 +293,7 @@ void Spindles::keep(Kept& kept) {
 // ---- configuration, events, quantities ---------------------------------------------------------------------------
 
 Handled Spindles::config(std::string_view key, std::string_view value) {
-  if (key == "encoders") { // for the axes, too
+  if (key == "encoders") { // also applies to the axes
     absolute_ = value == "absolute";
     return std::nullopt;
   }

@@ -12,15 +12,15 @@ namespace rung::sim::nct {
 
 namespace {
 
-// Delivered as in the example of the manual (l.4449-4467): two chains.
+// The default is the example of the manual (l.4449-4467): two chains.
 constexpr uint32_t kFirstMagazinePots = 24;
 constexpr uint32_t kSecondMagazinePots = 16;
 constexpr uint32_t kMostPots = 999;
-constexpr uint32_t kMostHalfPots = 40; // of a figure, in one direction
+constexpr uint32_t kMostHalfPots = 40; // of a tool pattern, in one direction
 
 uint32_t spindleOf(uint32_t cartridge) { return cartridge / 10 - 1; }
 
-// NUMBER of PREFIX.NUMBER.REST and the rest.
+// NUMBER and REST of PREFIX.NUMBER.REST.
 std::optional<std::pair<uint32_t, std::string_view>> numberAndRest(std::string_view name, std::string_view prefix) {
   if (!name.starts_with(prefix)) return std::nullopt;
   name.remove_prefix(prefix.size());
@@ -71,7 +71,7 @@ bool ToolManagement::managed() const { return links().parameters->bit(toolConfig
 
 bool ToolManagement::locked() const { return links().signals.get(signals_.locked); }
 
-// Cartridges of spindles exist as N2922 says: bit 0 that of the spindle, bit 1 the standby cartridge (l.10744).
+// N2922 says which cartridges of spindles exist: bit 0 that of the spindle, bit 1 the standby cartridge (l.10744).
 bool ToolManagement::exists(uint32_t cartridge) const {
   if (tables_.cartridges.find(cartridge) == nullptr) return false;
   if (cartridge <= kMagazines) return true;
@@ -105,7 +105,7 @@ void ToolManagement::cycle() {
   showBusy();
 }
 
-// Why the tables are occupied (l.8041-8049): a search and a modification show for one PLC cycle, then the saving.
+// Shows why the tables are occupied (l.8041-8049): search and modification for one PLC cycle, then saving.
 void ToolManagement::showBusy() {
   const SignalMemory& signals = links().signals;
   signals.set(signals_.searching, searching_);
@@ -295,7 +295,7 @@ std::string ToolManagement::editPattern(const std::vector<NcArgument>& keys) {
   return {};
 }
 
-// What the program has locked (P_TLTAB, l.8115) or the row itself (D, l.4382) the operator cannot change.
+// The operator cannot change data locked by the program (P_TLTAB, l.8115) or by the row itself (D, l.4382).
 std::string ToolManagement::editTool(const std::vector<NcArgument>& keys) {
   const NcArgument* data = findKey(keys, "data");
   if (data == nullptr) return "event tool needs data=NUMBER, pattern=NUMBER or edit=0|1";
@@ -349,7 +349,7 @@ std::string ToolManagement::placeTool(uint32_t dataNumber, const std::vector<NcA
 
 namespace {
 
-constexpr int32_t kNoCartridge = 100; // then the pot; 102, 103 of the second place
+constexpr int32_t kNoCartridge = 100; // + 1: the pot; 102, 103: the second place
 constexpr int32_t kNoSecondCartridge = 102;
 constexpr int32_t kNoEmptyPot = 104;
 constexpr int32_t kWrongColumn = 104; // + column
@@ -358,7 +358,7 @@ constexpr int32_t kNoTool = 139;
 constexpr int32_t kWrongNumber = 140;
 constexpr int32_t kNoMatch = 141;
 
-constexpr uint32_t kFirstColumnWord = 4; // of a record: the type number, l.4736
+constexpr uint32_t kFirstColumnWord = 4; // first column in a record: the type number, l.4736
 
 PotPlace placeAt(const Block& block, uint32_t word) {
   return {static_cast<uint32_t>(block.word(word)), static_cast<uint32_t>(block.word(word + 1))};
@@ -398,7 +398,7 @@ bool ToolManagement::serves(bool write, uint32_t function) const {
 }
 
 std::optional<int32_t> ToolManagement::service(uint32_t function, Block& block) {
-  // The tables are occupied (l.8043-8049). N1274 #0 MRW lets MR 101, 104 and 107 read all the same (l.4674).
+  // The tables are occupied (l.8043-8049); with N1274 #0 MRW, MR 101, 104 and 107 still read (l.4674).
   const bool searchesByPot = function == 101 || function == 104 || function == 107;
   if (editing_ && !(searchesByPot && links().parameters->bit(programConfig_, 0))) return std::nullopt;
   switch (function) {
@@ -438,7 +438,7 @@ int32_t ToolManagement::exchange(Block& block) {
 }
 
 int32_t ToolManagement::searchPot(Block& block) {
-  // The amount need not be set (l.4680), the answer says 7 (l.4700), another one is an error (l.4711).
+  // The amount need not be set (l.4680), it is 7 in the answer (l.4700), any other amount is an error (l.4711).
   if (block.amount() != 7 && block.amount() != 0) return nc::nct::kBadAmount;
   block.setWord(nc::nct::kAmountWord, 7);
   const PotPlace target = placeAt(block, 2);
@@ -479,7 +479,7 @@ int32_t ToolManagement::registerTool(Block& block) {
   const PotPlace place = placeAt(block, 2);
   if (const int32_t code = checkPlace(place, kNoCartridge); code != nc::nct::kExecuted) return code;
   if (const int32_t code = checkRecord(block, *columns); code != nc::nct::kExecuted) return code;
-  // A row that is registered as invalid would not be a tool.
+  // A row marked as invalid would not be a tool.
   if (*columns >= kToolInfo && (static_cast<uint32_t>(block.word(5)) & kInfoValid) == 0)
     return kWrongColumn + static_cast<int32_t>(kToolInfo);
   const uint32_t row = tables_.tools.firstFree();
@@ -525,7 +525,7 @@ int32_t ToolManagement::deleteTool(Block& block) {
   return nc::nct::kExecuted;
 }
 
-// A column that does not exist is an error of its own, which comes after others (l.5217).
+// An unknown column is a separate error, which is checked after others (l.5217).
 bool ToolManagement::hasDatumAmount(const Block& block) const {
   if (block.amount() != 4 && block.amount() != 5) return false;
   const int32_t number = block.word(4);
@@ -543,7 +543,7 @@ int32_t ToolManagement::writeDatum(Block& block) {
   if (!isColumn(number, limits_.userColumns)) return kWrongNumber;
   ToolRow& row = tables_.tools.row(tool);
   if (row.info(kInfoDisabled) && column != kToolInfo)
-    return nc::nct::kWriteProtected; // the info takes the lock away again
+    return nc::nct::kWriteProtected; // only the info can remove the lock
   const ToolDatum datum = datumAt(block, 5, column);
   if (!acceptable(column, datum, limits_)) return kWrongColumn + number;
   const int32_t before = row.status();
@@ -581,7 +581,7 @@ int32_t ToolManagement::searchUser(Block& block) {
     const ToolRow& row = tables_.tools.row(tool);
     if (!row.valid() || !sameDatum(column, row, block)) continue;
     const std::optional<PotPlace> place = tables_.cartridges.placeOf(tool);
-    if (!place) continue; // not in the machine: there is no pot to answer with
+    if (!place) continue; // not in the machine: there is no pot for the answer
     block.setWord(2, static_cast<int32_t>(place->cartridge));
     block.setWord(3, static_cast<int32_t>(place->pot));
     return nc::nct::kExecuted;

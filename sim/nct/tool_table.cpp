@@ -198,19 +198,19 @@ void CartridgeTable::take(uint32_t dataNumber) {
   serial_[dataNumber] = 0;
 }
 
-// Search of an empty pot.
+// Search for an empty pot.
 
 namespace {
 
-// The cell next to the pot's centre on a side has distance 0. A quarter of an ellipse round the centre of the pot
-// reaches into it when its nearest corner lies inside (geometry B, l.4600-4611).
+// Whether the cell is outside the tool's quarter of an ellipse around the centre of the pot, which covers it if its
+// nearest corner is inside (geometry B, l.4600-4611). The cell next to the pot's centre on a side has distance 0.
 bool cornerFree(uint32_t across, uint32_t along, uint32_t reachAcross, uint32_t reachAlong) {
   const double x = static_cast<double>(across) / (1.0 + reachAcross);
   const double y = static_cast<double>(along) / (1.0 + reachAlong);
   return x * x + y * y >= 1.0;
 }
 
-// Calls `visit(cell)` for each cell that a tool of the pattern takes around pot `index` (from 0).
+// Calls `visit(cell)` for each cell that a tool of the pattern occupies around pot `index` (from 0).
 template <class Visit>
 void forCells(const CartridgeShape& shape, uint32_t index, const ToolPattern& p, Visit visit) {
   const int64_t width = int64_t{2} * shape.columns;
@@ -228,7 +228,7 @@ void forCells(const CartridgeShape& shape, uint32_t index, const ToolPattern& p,
         continue;
       if (!shape.matrix)
         visit(static_cast<size_t>((x % width + width) % width)); // the ring
-      else if (x >= 0 && x < width && y >= 0 && y < height)      // room beyond the edge belongs to no tool
+      else if (x >= 0 && x < width && y >= 0 && y < height)      // cells past the edge do not exist
         visit(static_cast<size_t>(y * width + x));
     }
 }

@@ -1,5 +1,5 @@
-// The plug-in of rung-run: a simulated control around a program. It has the runtime in it a second time, which makes
-// the instance and the simulation; the host runs that instance by its own, of the same build.
+// The plug-in of rung-run: a program in a simulated control. It contains a second copy of the runtime, which makes the
+// instance and the simulation; the host runs that instance by its own copy, of the same build.
 #include <algorithm>
 #include <exception>
 #include <iterator>
@@ -32,7 +32,7 @@ sim::NcArgument argumentOf(const std::string& key, const nlohmann::json& value) 
 
 using Arguments = std::vector<sim::NcArgument>;
 
-// Statements of scenarios that are not events there.
+// Statements of scenarios that are not events.
 struct Statement {
   std::string_view name;
   std::string (*carryOut)(sim::SimulatedNc& nc, runtime::Instance& inside, const Arguments& keys);
@@ -55,7 +55,7 @@ class SimulatedControl final : public Simulation {
 public:
   explicit SimulatedControl(const char* dialect)
       : keys_(keysOf(dialect)), made_(sim::makeSimulatedNc(dialect)), nc_(*made_) {
-    // That of a dialect which also has one that scenarios play; the others know no such key.
+    // Selects the simulated NC for dialects that also have a scripted one; others do not have this key.
     (void)nc_.config("nc", "simulated");
     nc_.setRealTime();
   }
@@ -95,15 +95,15 @@ public:
 
 private:
   std::span<const nc::ConfigKey> keys_;
-  std::unique_ptr<sim::SimulatedNc> made_; // until the instance has it
+  std::unique_ptr<sim::SimulatedNc> made_; // until it is passed to the instance
   sim::SimulatedNc& nc_;
-  rung_instance* instance_ = nullptr; // the host's
+  rung_instance* instance_ = nullptr; // owned by the host
 };
 
 } // namespace
 } // namespace rung::rung_run
 
-// What is C++ between the two is of one build: rung-run compares them.
+// Identifies the build, because the interface is C++: rung-run accepts only its own build.
 extern "C" const char* rung_plugin_build() {
   static const std::string build = rung::rung_run::simulationBuild();
   return build.c_str();

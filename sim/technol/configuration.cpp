@@ -14,8 +14,8 @@
 namespace rung::sim::technol {
 namespace {
 
-// Gives the bytes that a text means, one at a time: its characters, or those of pairs of hexadecimal digits with
-// blanks between them.
+// Returns the bytes of a text one at a time: its characters, or the bytes of pairs of hexadecimal digits with blanks
+// between them.
 class Bytes {
 public:
   Bytes(std::string_view text, bool binary) : text_(text), hex_(binary && isHex(text::trimmed(text))) {
@@ -51,7 +51,7 @@ private:
   size_t at_ = 0;
 };
 
-// The length of the whole and the bytes of one part.
+// Writes the length of the whole text and the bytes of one part to the reply.
 void putText(Bytes bytes, uint64_t part, core::ServiceReply& reply) {
   const uint64_t from = part * nc::kConfigurationBytes;
   uint64_t count = 0;
@@ -73,7 +73,7 @@ std::string Configuration::set(std::string_view key, std::string_view value) {
   return {};
 }
 
-// Numbers that a file gives itself are not given to others of its constants.
+// Numbers that a file assigns explicitly are not assigned to its other constants.
 std::string Configuration::define(std::span<const host::ParameterDefinition> parameters,
                                   std::span<const host::ConstantDefinition> constants) {
   for (const host::ParameterDefinition& parameter : parameters)
@@ -86,7 +86,7 @@ std::string Configuration::define(std::span<const host::ParameterDefinition> par
   return {};
 }
 
-// Offsets in shared area 0 and codes of commands are numbered as they come (man. l.16290-16301).
+// Offsets in shared area 0 and codes of commands are numbered in order of occurrence (man. l.16290-16301).
 std::string Configuration::setConstant(std::string_view id, std::string_view value) {
   int64_t number = 0;
   if (value == "SA0INT") {
@@ -137,7 +137,7 @@ std::optional<int64_t> Configuration::constantInMemory(std::string_view id) cons
   return found == constants_.end() ? std::nullopt : std::optional(found->second);
 }
 
-// What is not a value of the wanted kind counts as not found.
+// A value of another kind than requested counts as not found.
 void Configuration::respond(const core::ServiceRequest& request, core::ServiceReply& reply) const {
   char room[nc::kConfigurationBytes];
   const std::string_view id = nc::technol::charactersOf(std::span(request.args).subspan(nc::kConfigurationHead), room);

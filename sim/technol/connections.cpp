@@ -88,7 +88,8 @@ const Connections::Attributes* Connections::attributesOf(std::string_view canoni
   return found == attributes_.end() ? nullptr : &found->second;
 }
 
-// `PLC.Input.ID.Scale` is that input's alone, `ID.Scale` holds for all of this identifier.
+// The attributes of a variable: `PLC.Input.ID.Scale` applies only to that input, `ID.Scale` to all with this
+// identifier.
 const Connections::Attributes* Connections::attributesOf(const SharedVariable& variable) const {
   const std::string name = nc::technol::canonical(variable.name);
   if (variable.isLogical()) {
@@ -113,7 +114,7 @@ public:
   Resolver(runtime::Instance& instance, const SharedVariables& variables, ModuleCells& cells)
       : instance_(instance), variables_(variables), cells_(cells) {}
 
-  // Nothing, with the reason in `problem`, where there is no such end.
+  // The end of a connection; nothing, and `problem` says why, if there is no such end.
   std::optional<End> end(std::string_view written, std::string& problem) {
     const std::string name = canonicalOf(written);
     problem = inQuotes(written) + " is not an end of a connection";
@@ -263,7 +264,7 @@ private:
 
 namespace {
 
-// An integer of process data is signed where the other end is, or a real.
+// The type of an integer of process data: it is signed, or a real, if the other end is.
 nc::ExchangeType withSignOf(nc::ExchangeType integer, nc::ExchangeType other) {
   using enum nc::ExchangeType;
   if (other != Int8 && other != Int16 && other != Int32 && other != Int64 && other != Real) return integer;
@@ -283,12 +284,12 @@ bool addStage(Wire& wire, const Stage& stage) {
 
 } // namespace
 
-// How the value changes: by the output's own attributes, by those of the connection, by the input's.
+// Sets the conversions of the value: by the attributes of the output, of the connection, and of the input.
 void Connections::shape(Wire& wire, const Connection& connection, const End& from, const End& to) const {
   wire.invert = connection.invert;
   const Attributes* output = from.variable ? attributesOf(*from.variable) : nullptr;
   const Attributes* input = to.variable ? attributesOf(*to.variable) : nullptr;
-  if (output == input) input = nullptr; // of one identifier: once
+  if (output == input) input = nullptr; // the same identifier: applied once
   for (const Attributes* attributes : {output, input})
     if (attributes && isFlag(attributes->invert)) wire.invert = !wire.invert;
   const bool bits = wire.from.type == nc::ExchangeType::Bit && wire.to.type == nc::ExchangeType::Bit;
@@ -351,7 +352,7 @@ void Connections::addWire(const Connection& connection, const End& from, const E
   wires_.push_back(wire);
 }
 
-// The other end of its connection says what an EtherCAT element is.
+// The type of an EtherCAT element is that of the other end of its connection.
 void Connections::openCells(Resolver& resolver, ModuleCells& cells) const {
   for (const Connection& connection : connections_) {
     std::string problem;
@@ -393,8 +394,8 @@ void Connections::addTerminals(Resolver& resolver, const SharedVariables& variab
   }
 }
 
-// Bits that several connections set are ORed (man. l.5563): the first one sets, the others join. They are served
-// together, as the fastest of them.
+// Bits that several connections set are ORed (man. l.5563): the first connection sets the bit, the others are ORed to
+// it. All have the period of the fastest of them.
 void Connections::order() {
   const auto key = [](const Wire& wire) {
     const bool inCell = wire.to.kind == Pin::Kind::CellBit || wire.to.kind == Pin::Kind::Cell;
@@ -444,7 +445,7 @@ void Connections::build(runtime::Instance& instance, const SharedVariables& vari
 
 namespace {
 
-// The weight bits of ANALOG_CONNECTED (man. l.5898).
+// Sets the weight bits of ANALOG_CONNECTED (man. l.5898).
 void mark(runtime::Instance& instance, uint32_t channel, bool input) {
   const auto array = nc::technol::signalPlace(instance.program(), "ANALOG_CONNECTED");
   const auto cell = array ? runtime::element(*array, channel) : std::nullopt;
@@ -545,7 +546,7 @@ double realOf(uint64_t bits, nc::ExchangeType type) {
                                          : static_cast<double>(static_cast<int64_t>(value));
 }
 
-// To the nearest integer, to the even one of two; held in the type's range. No number is 0.
+// Rounds to the nearest integer, ties to even, saturated to the type's range; NaN gives 0.
 uint64_t integerOf(double value, nc::ExchangeType type) {
   const int bits = static_cast<int>(widthOf(type)) - (isSigned(type) ? 1 : 0);
   const double end = std::ldexp(1.0, bits), rounded = std::nearbyint(value);
@@ -615,7 +616,7 @@ void WireMemory::write(const Pin& pin, uint64_t bits) const {
   }
 }
 
-// As far as the target holds it; the last byte of a text is its terminator.
+// Copies as much as fits in the target; the last byte of a text is its terminator.
 void WireMemory::copyText(const Wire& wire) const {
   const runtime::Ref &from = wire.from.place, &to = wire.to.place;
   const bool terminated = wire.to.type == nc::ExchangeType::Text;
@@ -644,7 +645,7 @@ void WireMemory::copy(const Wire& wire) const {
 
 namespace {
 
-// One name space each for logical inputs, logical outputs, and all others.
+// Logical inputs, logical outputs and all other variables have separate name spaces.
 char spaceOf(nc::ExchangeKind kind) {
   if (kind == nc::ExchangeKind::DefIn) return 'I';
   return kind == nc::ExchangeKind::DefOut ? 'O' : 'S';
@@ -734,7 +735,7 @@ bool SharedVariables::define(const rung_program& program, SharedVariable variabl
 
 namespace {
 
-// All of its bytes, which stay together.
+// All bytes of a variable, which stay adjacent.
 runtime::Ref extentOf(const SharedVariable& variable) {
   if (variable.type == nc::ExchangeType::Bit && variable.count == 1) return placeOf(variable, 0);
   runtime::Ref whole = runtime::intRef(variable.space, variable.byte, 8);
@@ -742,7 +743,7 @@ runtime::Ref extentOf(const SharedVariable& variable) {
   return whole;
 }
 
-// False: it is not there, or not with all of its parts.
+// Finds the variable in another program. False: it does not exist there completely.
 bool moveTo(const runtime::Relocation& relocation, SharedVariable& variable) {
   const auto place = relocation.place(extentOf(variable));
   if (!place) return false;

@@ -29,12 +29,12 @@ constexpr NamedEvent kEvents[] = {
     {"PLCEVENT_START_REQ", PlcEvent::StartRequest},
 };
 
-// A program that is stopped takes no part.
+// Calls a procedure, unless the program is stopped.
 void call(runtime::Instance& instance, std::string_view procedure, uint64_t dr, bool rlo) {
   if (!instance.stopped()) nc::technol::runWith(instance, procedure, dr, rlo);
 }
 
-// CODE=n or the name of a constant, STATE=1 pressed, 0 released.
+// Keys: CODE=n or the name of a constant, STATE=1 pressed, 0 released.
 std::string command(runtime::Instance& instance, std::span<const NcArgument> keys, const ConstantOf& constantOf) {
   std::optional<int64_t> code, state;
   for (const NcArgument& key : keys) {
@@ -74,7 +74,7 @@ std::optional<std::string> callEvent(runtime::Instance& instance, std::string_vi
   return std::nullopt;
 }
 
-// Answers that come later.
+// Answers that arrive later.
 
 namespace {
 
@@ -83,7 +83,7 @@ using nc::technol::writeCell;
 constexpr int64_t kDriveAnswer = 0x580; // object of the answer (man. l.9203)
 constexpr uint64_t kPacketBytes = 8;
 
-// Bits are named X, Y, Z and by the numbers from 4 on (man. l.6243, l.6347).
+// Names of bits have X, Y, Z, and numbers from 4 on (man. l.6243, l.6347).
 std::string bitOfAxis(std::string_view before, int64_t axis, std::string_view after) {
   constexpr std::string_view kLetters[] = {"X", "Y", "Z"};
   const std::string number = axis <= 3 ? std::string(kLetters[axis - 1]) : std::to_string(axis);

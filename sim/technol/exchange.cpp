@@ -1,4 +1,4 @@
-// What the control exchanges with a program.
+// The data that the control exchanges with a program.
 #include "sim/technol/exchange.h"
 
 #include <algorithm>
@@ -47,7 +47,7 @@ uint32_t Exchange::works() const {
 }
 
 void Exchange::onHook(runtime::Instance& instance, uint32_t hook) {
-  if (defined_) afterInit(instance); // by a procedure that runs outside MODULE_INIT
+  if (defined_) afterInit(instance); // variables were defined outside MODULE_INIT
   switch (hook) {
   case nc::kHookBeforeInput:
     ports_.beforeProgram(instance);
@@ -151,7 +151,7 @@ void Ports::locate(const runtime::Instance& instance) {
   findSwitches(instance);
 }
 
-// The places of the cells in the block, joined where they follow each other.
+// Finds the places of the cells in the block, with adjacent ones joined.
 void Ports::findSwitches(const runtime::Instance& instance) {
   switches_.clear();
   const auto add = [&](const Family& family, uint32_t count) {
@@ -194,7 +194,7 @@ bool Ports::anySwitch(const runtime::Instance& instance) const {
   return false;
 }
 
-// Bits that were changed since they were forced are new.
+// Restores forced bits, except those that have changed since they were forced.
 void Ports::restore(runtime::Instance& instance, const Family& family, uint32_t number, Port& port) {
   if (!port.active) return;
   const uint8_t now = read(instance, family, number);
@@ -203,7 +203,7 @@ void Ports::restore(runtime::Instance& instance, const Family& family, uint32_t 
   port.active = false;
 }
 
-// Low wins over high.
+// Forces bits; low takes precedence over high.
 void Ports::force(runtime::Instance& instance, const Family& family, uint32_t number, Port& port, uint8_t high,
                   uint8_t low) {
   if ((high | low) == 0) return;
@@ -213,7 +213,8 @@ void Ports::force(runtime::Instance& instance, const Family& family, uint32_t nu
   write(instance, family, number, port.forced);
 }
 
-// Outputs that are zeroed until the program has acknowledged their error. A unit that reports none has none.
+// The outputs that are zeroed until the program has acknowledged their error. A unit with error reports disabled has
+// none.
 uint8_t Ports::shorted(runtime::Instance& instance, uint32_t output) const {
   const uint8_t errors = read(instance, shorts_, output);
   if (errors == 0 || (control_[output / kOutputsOfAUnit] & kNoShortReports) == 0) return errors;

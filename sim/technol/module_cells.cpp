@@ -15,7 +15,7 @@ namespace {
 
 constexpr uint32_t kKeys = 256; // of the virtual keyboard (man. l.12492)
 
-// The manual's INT32 are all of the servo loops, and the two angles (man. l.12871-12925, l.13214-13218).
+// The manual's INT32 are all signals of the servo loops, and the two angles (man. l.12871-12925, l.13214-13218).
 bool isSigned(const nc::Signal& signal) {
   return std::string_view(signal.area).starts_with("RTM.Servo") || std::string_view(signal.symbol).ends_with("_ANGLE");
 }
@@ -80,7 +80,7 @@ ModulePoint sharedPoint(std::string_view area, std::string_view symbol, uint32_t
   return {};
 }
 
-// What simulated devices have of the real-time manager (man. l.12760-12868, l.12871-12920).
+// The elements of the real-time manager that simulated devices have (man. l.12760-12868, l.12871-12920).
 ModulePoint pointOf(std::string_view area, std::string_view symbol, uint32_t number) {
   using Kind = ModulePoint::Kind;
   if (const ModulePoint shared = sharedPoint(area, symbol, number); shared.kind != Kind::None) return shared;
@@ -114,7 +114,7 @@ std::optional<ModuleElement> rtmElement(std::string_view rest, std::string& prob
       problem = std::string(signal->symbol) + " has the elements 0 to " + std::to_string(signal->count - 1);
       return std::nullopt;
     }
-    // What all axes have in common is one element, whichever axis is named.
+    // Elements common to all axes are one element, whichever axis is named.
     const bool isCommon = module.area == std::string_view("RTM.Axis");
     const bool ofMember = signal->count == 1 && module.members > 1 && !isCommon;
     const uint32_t number = ofMember ? member : element;
@@ -218,7 +218,7 @@ std::optional<NcCell> ModuleCells::read(std::string_view name) const {
   const auto element = this->element(reference.base, problem);
   if (!element) return std::nullopt;
   const auto found = byKey_.find(element->key);
-  // What an EtherCAT element is, its connection says.
+  // The connection determines the type of an EtherCAT element.
   if (found == byKey_.end() && element->typeIsOpen) return std::nullopt;
   const ModuleCell cell = found == byKey_.end() ? ModuleCell{.type = element->type} : cells_[found->second];
   NcCell value{.isReal = cell.type == nc::ExchangeType::Real, .width = widthOf(cell.type), .bits = cell.bits};

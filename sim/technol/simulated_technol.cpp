@@ -1,5 +1,5 @@
-// The simulated NC beside a TECHNOL PLC: configuration, connections and events, and the operator's commands (man. ch.
-// 3.17, 5, 14, 16, 27).
+// The simulated NC of a TECHNOL PLC: configuration, connections and events, and the operator's commands (man. ch. 3.17,
+// 5, 14, 16, 27).
 #include <iterator>
 #include <span>
 
@@ -97,7 +97,7 @@ public:
   void copyKept(std::span<uint8_t> image) noexcept override { devices_.copyKept(image); }
   void restoreKept(std::span<const uint8_t> image) override { devices_.restoreKept(image); }
 
-  // Shared variables have their names beside the program's own; screens write inputs only (man. l.13609).
+  // Shared variables can be found by their names, too; screens write only inputs (man. l.13609).
   std::optional<runtime::Ref> readPlace(const rung_program& program, std::string_view name) const override {
     const auto place = control_.readPlace(program, name);
     return place ? place : exchange_.shared().find(name, false);
@@ -203,7 +203,7 @@ private:
     return {};
   }
 
-  // MODULE_INIT defines its variables again.
+  // Starts the program; MODULE_INIT defines its variables again.
   void start(runtime::Instance& instance) {
     exchange_.beforeInit(instance, false);
     devices_.startProgram();
@@ -218,7 +218,7 @@ private:
   technol::SimulatedDevices devices_;
 };
 
-// The keys are names of cells of the command block.
+// Starts a block; the keys are names of cells of the command block.
 std::string SimulatedTechnol::blockStart(runtime::Instance& instance, const std::vector<NcArgument>& keys) {
   if (control_.blocks().busy()) return "a block is already under way";
   std::vector<nc::technol::CommandValue> values;

@@ -1,5 +1,5 @@
-// What generated C++ is written in: accesses to the memory block, faults and profile counters. They are macros and not
-// functions so that debuggers and profilers see nothing but the lines of the PLC source.
+// The macros of generated C++: accesses to the memory block, faults and profile counters. They are macros and not
+// functions so that debuggers and profilers see only the lines of the PLC source.
 #ifndef RUNG_GEN_HPP
 #define RUNG_GEN_HPP
 
@@ -8,8 +8,8 @@
 
 namespace rung::gen {
 using namespace sem;
-// Places in the memory block may overlap; m16u and its like have any address, the others one that is a multiple of
-// their size.
+// Places in the memory block may overlap; m16u and the other types with a u may have any address, the others must be
+// aligned to their size.
 typedef u8 __attribute__((may_alias)) m8;
 typedef u16 __attribute__((may_alias)) m16;
 typedef u32 __attribute__((may_alias)) m32;
@@ -22,15 +22,15 @@ typedef double __attribute__((aligned(1), may_alias)) mf64u;
 typedef bool __attribute__((may_alias)) mbool; // the runtime keeps these bytes at 0 or 1
 } // namespace rung::gen
 
-// All that is inside belongs to the source line of the #line above it.
+// Encloses the code of the source line named by the #line above it.
 #ifndef RUNG_DEBUG
 #define RUNG_LINE(...) __VA_ARGS__
 #else
-// Stores of earlier lines have reached memory when a line begins, and its loads have not happened.
+// At the beginning of a line the stores of earlier lines have reached memory, and its own loads have not been executed.
 #define RUNG_LINE(...)                                                                                                 \
   asm volatile("" : : "r"(block) : "memory");                                                                          \
   __VA_ARGS__
-// `mem` is for debuggers; volatile, so that it is in its place all through the function.
+// `mem` is for debuggers; volatile, so that it exists throughout the function.
 #define RUNG_SHOW_MEMORY rung_memory* volatile mem = reinterpret_cast<rung_memory*>(block);
 #endif
 
@@ -44,7 +44,8 @@ typedef bool __attribute__((may_alias)) mbool; // the runtime keeps these bytes 
 // m8 m16 m32 m64 mf64, m16u m32u m64u mf64u
 #define RUNG_MEM(type, offset) (*reinterpret_cast<type*>(block + (offset)))
 
-// Element i of a window of `count` elements, `unit` bytes apart; outside of it nothing is read or written.
+// Element i of a window of `count` elements, `unit` bytes apart; outside the window a read gives 0 and a write does
+// nothing.
 #define RUNG_AT(type, offset, count, unit, i)                                                                          \
   ((i) < (count) ? RUNG_MEM(type, (offset) + static_cast<u64>(i) * (unit)) : 0)
 #define RUNG_SET_AT(type, offset, count, unit, i, value)                                                               \
@@ -77,8 +78,8 @@ typedef bool __attribute__((may_alias)) mbool; // the runtime keeps these bytes 
     ctx->host->message(ctx, &m);                                                                                       \
   }
 
-// Ticks of the machine, those that the host calibrates (rtlib/core/ticks.h): no cycle counter that traps in user mode.
-// They are read in order with everything before and after.
+// Ticks of the counter that the host calibrates (rtlib/core/ticks.h), read in program order. Only counters that do not
+// trap in user mode are used.
 #if defined(__x86_64__) || defined(__i386__)
 #define RUNG_TICKS()                                                                                                   \
   ({                                                                                                                   \

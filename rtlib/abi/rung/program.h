@@ -1,11 +1,11 @@
-/* The contract between a compiled PLC program and the host that runs it. Plain C11, nothing else.
+/* The contract between a compiled PLC program and the host that runs it, in plain C11.
  *
  * A program is one constant `rung_program`: tables of plain structs, and one function per *chunk* (a run of rungs that
- * is entered at its head only). The host owns all memory: one block of `memory_size` bytes per instance, laid out as
- * the tables say, and one `rung_ctx`. Generated code has no globals, so instances and generations can coexist.
+ * is entered at its head only). The host owns all memory: one block of `memory_size` bytes per instance, with the
+ * layout of the tables, and one `rung_ctx`. Generated code has no globals, so instances and generations can coexist.
  *
- * Rules for changes: fields are added at the end only; `size` says what is there; every offset is asserted by a test.
- * A `.so` exports exactly one symbol, the data object `rung_program_table`.
+ * Rules for changes: fields are only added at the end; `size` says which exist; a test asserts every offset. A `.so`
+ * exports exactly one symbol, the data object `rung_program_table`.
  */
 #ifndef RUNG_PROGRAM_H
 #define RUNG_PROGRAM_H
@@ -18,19 +18,19 @@ extern "C" {
 
 #define RUNG_ABI_VERSION 7u
 #define RUNG_PROGRAM_SYMBOL "rung_program_table"
-/* Of a constant that says which layout of a host's struct the program was compiled for: then comes the struct's name.
- * Its value is the hash, its comment the text of rung_layout (rung/runtime.h). */
+/* Prefix, before a struct's name, of the constant that identifies the layout of a host's struct for which the program
+ * was compiled. Its value is the hash, its comment the text of rung_layout (rung/runtime.h). */
 #define RUNG_LAYOUT_SYMBOL "struct "
 #define RUNG_NONE 0xFFFFFFFFu     /* "not there" in every index field */
-#define RUNG_PC_DONE 0xFFFFFFFFu  /* a chunk returns this when the task's run has ended */
-#define RUNG_PC_FAULT 0xFFFFFFFEu /* a chunk returns this after it filled ctx->fault */
+#define RUNG_PC_DONE 0xFFFFFFFFu  /* returned by a chunk when the task's run has ended */
+#define RUNG_PC_FAULT 0xFFFFFFFEu /* returned by a chunk that has filled ctx->fault */
 #define RUNG_STACK_DEPTH 128u     /* return addresses; the compiler proves that it suffices */
 #define RUNG_MAX_SERVICE_ARGS 16u
 
 typedef struct rung_ctx rung_ctx;
 
-/* Runs a chunk on the memory block; returns the next chunk, RUNG_PC_DONE or RUNG_PC_FAULT. `chunk` is its own number:
- * compiled code leaves it alone, an interpreter has one function for all chunks. */
+/* Runs a chunk on the memory block; returns the next chunk, RUNG_PC_DONE or RUNG_PC_FAULT. `chunk` is its own number,
+ * which compiled code ignores; an interpreter has one function for all chunks. */
 typedef uint32_t (*rung_chunk_fn)(uint8_t* mem, rung_ctx* ctx, uint32_t chunk);
 
 /* ---- memory -------------------------------------------------------------------------------------------------- */
@@ -52,16 +52,16 @@ typedef struct rung_range {
 enum rung_space_flags {
   RUNG_SPACE_INPUT = 1,  /* the machine or the NC writes it */
   RUNG_SPACE_OUTPUT = 2, /* the program writes it for the machine or the NC */
-  RUNG_SPACE_HIDDEN = 4, /* no name a user would write: latches, registers, masks */
-  /* The compiler gave its addresses out, and may do so otherwise when the program changes: what lies there is known by
-   * its symbol alone. */
+  RUNG_SPACE_HIDDEN = 4, /* not for users: latches, registers, masks */
+  /* The compiler assigns its addresses, which may differ when the program changes: cells are identified only by their
+   * symbols. */
   RUNG_SPACE_ALLOCATED = 8,
 };
 
 /* An address space of the dialect. Multi-byte values are little-endian in every space. */
 typedef struct rung_space {
   const char* name;
-  uint32_t unit_bytes; /* 1, 2, 4 or 8: what one address number counts */
+  uint32_t unit_bytes; /* bytes per address number: 1, 2, 4 or 8 */
   uint32_t byte_count;
   uint32_t flags; /* enum rung_space_flags */
   uint32_t range_count;
@@ -75,46 +75,46 @@ enum rung_type {
   RUNG_TYPE_I32 = 4,
   RUNG_TYPE_I64 = 5,
   RUNG_TYPE_F64 = 6,
-  RUNG_TYPE_TEXT = 7, /* `count` bytes, ended by 0 when shorter */
+  RUNG_TYPE_TEXT = 7, /* `count` bytes; a shorter text ends with 0 */
 };
 
 enum rung_symbol_flags {
   RUNG_SYMBOL_READONLY = 1, /* the program may not write it */
   RUNG_SYMBOL_HIDDEN = 2,   /* for the host's own use: a register, a mechanism's continuation */
   RUNG_SYMBOL_CONST = 4,    /* not memory: `byte` is unused, `value` is its value */
-  RUNG_SYMBOL_AREA = 8,     /* the control's name of where an area begins: what lies there belongs to other names */
+  RUNG_SYMBOL_AREA = 8,     /* the control's name for the beginning of an area, whose cells have other names */
 };
 
 /* A name of the program. Sorted by strcmp of `name`; case-insensitive dialects store upper case. */
 typedef struct rung_symbol {
   const char* name;
-  const char* comment; /* "" when there is none */
+  const char* comment; /* "" if there is none */
   uint32_t space;
   uint32_t byte;  /* logical byte within the space */
   uint32_t bit;   /* 0..7, for RUNG_TYPE_BIT */
   uint32_t type;  /* enum rung_type */
   uint32_t count; /* elements of an array, or bytes of a text; 1 otherwise */
   uint32_t flags; /* enum rung_symbol_flags */
-  int64_t value;  /* of a constant */
-  uint32_t
-      reach;     /* bytes from `byte` on that instructions read or write as one cell, by this place; at least its own */
-  uint32_t rung; /* of a hidden name: the first that uses it; RUNG_NONE: none does */
+  int64_t value;  /* value of a constant */
+  uint32_t reach; /* bytes from `byte` on that instructions access as one cell by this name; at least its own */
+  uint32_t rung;  /* of a hidden name: the first rung that uses it, or RUNG_NONE */
 } rung_symbol;
 
-/* State that the compiler made: the last value of an edge, what a timer has counted. Sorted by strcmp of `key`, which
- * stays the same as long as the instruction does. Of instructions that are alike in their routine the second has "~1"
- * there, and so on: such keys are the same instructions' in two programs only in rungs that are the same. What means
- * nothing between two scans has no entry. Slots share no byte with a range of a space. */
+/* State that the compiler made: the last value of an edge, the elapsed time of a timer. Sorted by strcmp of `key`,
+ * which stays the same as long as the instruction does. Among equal instructions of a routine the key of the second one
+ * has "~1", and so on: in two programs such keys belong to the same instruction only within equal rungs. State that is
+ * not used between two scans has no entry. Slots share no byte with a range of a space. */
 typedef struct rung_slot {
   const char* key;
   uint32_t offset; /* in the memory block */
-  uint32_t type;   /* enum rung_type, no text; a bit has a byte, 0 or 1 */
-  uint32_t rung;   /* the first that uses it; RUNG_NONE: none does */
+  uint32_t type;   /* enum rung_type, not text; a bit is a byte, 0 or 1 */
+  uint32_t rung;   /* the first rung that uses it, or RUNG_NONE */
   uint32_t reserved;
 } rung_slot;
 
-/* A cell of 32 bits, of a slot or of a space, that says where a mechanism continues. Its value v means points[v], a key
- * that stays the same as long as the instruction there does; 0 is the beginning. Sorted by strcmp of `key`. */
+/* A cell of 32 bits, in a slot or a space, that stores where a mechanism continues. Its value v selects points[v], a
+ * key that stays the same as long as the instruction at that point does; 0 is the beginning. Sorted by strcmp of
+ * `key`. */
 typedef struct rung_continuation {
   const char* key;
   uint32_t offset; /* in the memory block */
@@ -122,13 +122,13 @@ typedef struct rung_continuation {
   const char* const* points;
 } rung_continuation;
 
-/* Bytes of the memory block. A retained span is made of whole logical bytes of spaces. */
+/* Bytes of the memory block. A retained span consists of whole logical bytes of spaces. */
 typedef struct rung_span {
   uint32_t offset;
   uint32_t size;
 } rung_span;
 
-/* Bits of the memory block that chunks may write: of each of `size` bytes those of the mask. Where it is not 255,
+/* Bits of the memory block that chunks may write: in each of `size` bytes the bits of the mask. If the mask is not 255,
  * `size` is 1. */
 typedef struct rung_written {
   uint32_t offset;
@@ -136,7 +136,7 @@ typedef struct rung_written {
   uint32_t mask; /* 1 to 255 */
 } rung_written;
 
-/* Initial contents, which leave expanded bits at 0 or 1; all memory that no entry names starts as 0. */
+/* Initial contents, in which expanded bits are 0 or 1; all other memory starts as 0. */
 typedef struct rung_init {
   uint32_t offset;
   uint32_t size;
@@ -148,8 +148,8 @@ enum rung_copy_kind {
   RUNG_COPY_MASKED = 1, /* to := (to and not mask) or (from and mask); mask := 0 */
 };
 
-/* A transfer that the host does at the entry or exit of a task's run: input latches, images, register sets. Its pieces
- * do not overlap; each lies in ranges that follow one another in memory, and all of these have one representation. */
+/* A copy that the host makes at the entry or exit of a task's run: input latches, images, register sets. Source, target
+ * and mask do not overlap; each lies in ranges that are adjacent in memory, and all have the same representation. */
 typedef struct rung_copy {
   uint32_t kind; /* enum rung_copy_kind */
   uint32_t from; /* offsets in the memory block */
@@ -158,74 +158,74 @@ typedef struct rung_copy {
   uint32_t size;
 } rung_copy;
 
-/* Bits of one byte of a space that a person holds at a value. */
+/* Forced bits of one byte of a space. */
 typedef struct rung_forced_byte {
   uint32_t space;
   uint32_t byte;  /* logical, within the space */
-  uint32_t mask;  /* its bits that are forced, 1 to 255 */
-  uint32_t value; /* what they are; 0 outside the mask */
+  uint32_t mask;  /* the forced bits, 1 to 255 */
+  uint32_t value; /* their values; 0 outside the mask */
 } rung_forced_byte;
 
 /* ---- code ---------------------------------------------------------------------------------------------------- */
 
 typedef struct rung_chunk {
   uint32_t first_rung; /* in `rungs` */
-  uint32_t rung_count; /* at least 1; those after the first one may be anywhere in `rungs` */
-  uint32_t weight;     /* steps of its lightest way, for budgets; at least 1 */
+  uint32_t rung_count; /* at least 1; the rungs after the first may be anywhere in `rungs` */
+  uint32_t weight;     /* steps of its shortest path, for budgets; at least 1 */
 } rung_chunk;
 
 #define RUNG_MOST_TIMER_LIMIT (INT64_MAX >> 16)
 
 typedef struct rung_info {
-  const char* title; /* the rung's comment, "" when there is none */
+  const char* title; /* the rung's comment, "" if there is none */
   uint32_t file;     /* in `files`; RUNG_NONE: made by the compiler */
   uint32_t first_line;
   uint32_t last_line;
   uint32_t routine; /* in `routines` */
   uint64_t key;     /* stable while the rung's text is unchanged */
-  uint32_t number;  /* as drawn: from 1, over all files in their order; 0: made by the compiler */
-  uint32_t copy;    /* how many rungs before it in its routine have the same text: in the key (rung/types.hpp) */
+  uint32_t number;  /* as drawn: from 1, counted over all files; 0: made by the compiler */
+  uint32_t copy;    /* number of earlier rungs of its routine with the same text; part of `key` (rung/types.hpp) */
 } rung_info;
 
 /* A part of the program that the host can start: `begin` copies, chunks from `entry` until RUNG_PC_DONE, `end` copies.
- * A task that is cut into parts runs one part a RUNG_STEP_PART, and one run always takes `part_count` of them: when the
- * program reaches its end early, the parts that are left do nothing. Part i runs until control comes to a chunk that is
- * not below part_ends[part_first + i], outside of calls. `begin` belongs to the first part and `end` to every part. */
+ * A task that is cut into parts runs one part per RUNG_STEP_PART, and one run always takes `part_count` of them: if the
+ * program ends early, the remaining parts do nothing. Part i runs until control reaches, outside calls, a chunk that is
+ * not below part_ends[part_first + i]. The `begin` copies belong to the first part, the `end` copies to every part. */
 typedef struct rung_task {
   const char* name;
   uint32_t entry;        /* chunk */
   uint32_t period_us;    /* 0: only when the schedule or the control starts it */
-  uint32_t budget;       /* weight that one run may use up, else the fault `budget_fault` */
+  uint32_t budget;       /* maximum weight of one run; more is the fault `budget_fault` */
   uint32_t budget_fault; /* in `faults` */
   uint32_t begin_first;  /* in `copies` */
   uint32_t begin_count;
   uint32_t end_first;
   uint32_t end_count;
   uint32_t part_first; /* in `part_ends` */
-  uint32_t part_count; /* 1: not cut */
-  uint32_t longest;    /* weight of the longest run, of a cut task: of its longest part; at most `budget` */
-  uint32_t loops;      /* 1: control may go in loops; `longest` counts none of them twice, and `budget` ends them */
-  uint32_t read_first; /* in `reads`: what a run may read of spaces, its `begin` copies included */
+  uint32_t part_count; /* 1: not cut into parts */
+  uint32_t longest;    /* weight of the longest run, or, if cut, of the longest part; at most `budget` */
+  uint32_t loops;      /* 1: it may have loops; `longest` counts each once, and `budget` ends them */
+  uint32_t read_first; /* in `reads`: bytes of spaces that a run may read, with its `begin` copies */
   uint32_t read_count;
-  uint32_t change_first;    /* in `changes`: where all lies that a run may change. When one changes nothing, the next */
-  uint32_t change_count;    /* right after it does not either. 0: this is not known, or there is too much of it */
-  uint32_t loop_free_chunk; /* from it on, outside of calls, control goes in no loops; RUNG_PC_DONE: nowhere */
-  uint32_t loop_free_weight; /* of the longest path from there, or from a later chunk */
+  uint32_t change_first;     /* in `changes`: all places that a run may change. If a run changes nothing, a run */
+  uint32_t change_count;     /* right after it does not either. 0: not known, or too many places */
+  uint32_t loop_free_chunk;  /* from this chunk on there are no loops outside calls; RUNG_PC_DONE: nowhere */
+  uint32_t loop_free_weight; /* of the longest path from it, or from a later chunk */
 } rung_task;
 
-#define RUNG_MOST_CHANGES 16u /* `changes` of a task */
+#define RUNG_MOST_CHANGES 16u /* maximum `change_count` of a task */
 
 enum rung_step_op {
-  RUNG_STEP_ADVANCE = 0, /* the clock moves on by `arg` microseconds */
+  RUNG_STEP_ADVANCE = 0, /* the clock advances by `arg` microseconds */
   RUNG_STEP_RUN = 1,     /* run `task` `arg` times */
-  RUNG_STEP_PART = 2,    /* run the next part of `task`; after the last part of a run a new run begins */
-  RUNG_STEP_HOOK = 3,    /* the dialect's control does its work number `arg` */
+  RUNG_STEP_PART = 2,    /* run the next part of `task`; after the last part a new run begins */
+  RUNG_STEP_HOOK = 3,    /* call the dialect's control for work number `arg` */
   RUNG_STEP_SLOT = 4,    /* a slot ends here */
 };
 
 typedef struct rung_step {
   uint32_t op;   /* enum rung_step_op */
-  uint32_t task; /* RUNG_NONE where `op` has no task */
+  uint32_t task; /* RUNG_NONE if `op` has no task */
   uint32_t arg;
 } rung_step;
 
@@ -248,7 +248,7 @@ typedef struct rung_prof {
 typedef struct rung_fault {
   uint32_t code; /* in `faults`; RUNG_NONE: no fault */
   uint32_t rung; /* in `rungs` */
-  uint32_t line; /* source line of the operation, 0 when only the rung is known */
+  uint32_t line; /* source line of the operation; 0: only the rung is known */
   uint32_t task; /* in `tasks` */
 } rung_fault;
 
@@ -264,7 +264,7 @@ typedef struct rung_message {
   uint32_t number;
   int32_t channel;
   int32_t index;
-  int64_t value; /* integer, or the bits of a double when `real` is 1 */
+  int64_t value; /* integer; if `real` is 1, the bits of a double */
   uint32_t real;
   uint32_t rung;
 } rung_message;
@@ -276,14 +276,14 @@ enum rung_service_state {
   RUNG_SERVICE_ERROR = 3,
 };
 
-/* Bounded functions that generated code may call. None allocates, locks or blocks. `size` as in rung_program.
- * Each runs while a chunk does. Only service_request may read the memory block: it finds all spaces as the program has
- * left them. None of them may write to the block, and what else they read there may be old. */
+/* Functions that generated code may call, on the scan thread within a chunk. Their time is bounded; none allocates,
+ * locks or blocks. `size` as in rung_program. None may write to the memory block, and only service_request may read it:
+ * all spaces are up to date then, everything else in the block may be out of date. */
 typedef struct rung_host_api {
   uint32_t size;
   uint32_t reserved;
   void (*message)(rung_ctx* ctx, const rung_message* message);
-  /* Puts a request into the queue; returns its ticket, or 0 when the queue is full (counted, reported). */
+  /* Queues a request; returns its ticket, or 0 if the queue is full (counted, reported). */
   uint32_t (*service_request)(rung_ctx* ctx, uint32_t service, const int64_t* args, uint32_t count);
   uint32_t (*service_poll)(rung_ctx* ctx, uint32_t ticket); /* enum rung_service_state */
   int64_t (*service_result)(rung_ctx* ctx, uint32_t ticket, uint32_t index);
@@ -293,18 +293,18 @@ struct rung_ctx {
   int64_t now_us; /* fixed while a task runs */
   const rung_host_api* host;
   void* host_data;
-  rung_prof* prof; /* one per rung; only instrumented programs touch it */
-  void* engine;    /* the interpreter's own */
+  rung_prof* prof; /* one per rung; only instrumented programs use it */
+  void* engine;    /* private to the engine, such as the interpreter */
   rung_fault fault;
   uint32_t sp;           /* used entries of `stack` */
-  uint32_t extra_weight; /* by which a chunk's way was heavier than its weight; the host takes it */
+  uint32_t extra_weight; /* by which a chunk's path exceeded its weight; the host resets it */
   uint32_t stack[RUNG_STACK_DEPTH];
 };
 
 /* ---- the program --------------------------------------------------------------------------------------------- */
 
 typedef struct rung_program {
-  uint32_t size; /* of this struct, as the compiler knew it */
+  uint32_t size; /* of this struct in the compiler's version */
   uint32_t abi_version;
   const char* name;
   const char* dialect;
@@ -314,7 +314,7 @@ typedef struct rung_program {
   uint32_t memory_size;
   uint32_t memory_align; /* a power of two, at most 4096 */
   uint32_t instrumented; /* 1: counts and times rungs */
-  uint32_t main_task;    /* the task that "a scan" means */
+  uint32_t main_task;    /* the task whose run is a scan */
   uint32_t fast_task;    /* RUNG_NONE: there is none */
 
   uint32_t space_count;
@@ -346,7 +346,7 @@ typedef struct rung_program {
   const rung_slot* slots;
   const rung_continuation* continuations;
   const rung_init* inits;
-  const rung_span* retains;    /* kept through power-off */
+  const rung_span* retains;    /* retained through power-off */
   const rung_span* safe_spans; /* cleared when a fault stops the program */
   const rung_copy* copies;
   const rung_chunk* chunks;
@@ -355,16 +355,16 @@ typedef struct rung_program {
   const char* const* files;
   const rung_task* tasks;
   const uint32_t* part_ends; /* chunk before which a part ends, ascending; RUNG_PC_DONE for the last part of a task */
-  const rung_step* scan;     /* one scan of the main task; repeated. It takes time: its own, or the task's period */
-  const rung_step* fast;     /* one run of the fast task alone */
-  const rung_step* slices; /* `scan` on a real clock, where that has another order; else none. It takes the same time */
+  const rung_step* scan;   /* one scan, repeated; its ADVANCE steps take time, or without any the main task's period */
+  const rung_step* fast;   /* one run of the fast task only */
+  const rung_step* slices; /* `scan` for a real clock, if its order differs; else none. It takes the same time */
   const char* const* faults;
   const char* const* services;
-  const rung_message_text* texts; /* by ascending numbers; of equal ones the first counts */
+  const rung_message_text* texts; /* sorted by number; of equal numbers the first counts */
 
   const rung_chunk_fn* chunk_fns; /* by chunk */
-  const rung_written* writes;     /* all of spaces that chunks may write, ascending; none overlaps the next */
-  const rung_span* reads;         /* of each task, ascending; none touches the next */
+  const rung_written* writes;     /* all bits of spaces that chunks may write, ascending, without overlap */
+  const rung_span* reads;         /* of each task, ascending, not adjacent */
   const uint32_t* changes;        /* of each task: offsets of eight bytes of the memory block, ascending */
 } rung_program;
 

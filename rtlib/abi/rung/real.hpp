@@ -1,9 +1,9 @@
 // Elementary functions of doubles: square root, power, sine and the rest. They are computed in integers, with 110 bits
-// and more, and rounded once: no library, no optimiser and no machine can make them differ, and all but one in 2^50
-// results are the double nearest to the exact value. Part of sem.hpp, the only file that includes it.
+// and more, and rounded once: they do not depend on library, optimiser or machine, and all but one in 2^50 results are
+// the double nearest to the exact value. Part of sem.hpp, the only file that includes it.
 //
-// Values in here are fixed-point numbers of 128 bits ("Q1.127": one bit before the point) and Wide, a floating-point
-// number with 128 bits. Helpers that are used in many places are calls: programs carry one copy of each.
+// Values here are fixed-point numbers of 128 bits ("Q1.127": one bit before the point) and Wide, a floating-point
+// number with 128 bits. Helpers that are used in many places are not inlined: a program contains one copy of each.
 #ifndef RUNG_REAL_HPP
 #define RUNG_REAL_HPP
 
@@ -66,7 +66,7 @@ constexpr U128 mulFull(u64 a, u64 b) noexcept {
   return mulByHalves(a, b);
 #endif
 }
-// The upper half of the product, at most 3 too low: of two fixed-point numbers it is the product.
+// The upper half of the product, at most 3 too low, which is the product of two fixed-point numbers.
 RUNG_SHARED U128 mul(U128 a, U128 b) noexcept {
   const U128 top = mulFull(a.hi, b.hi);
   const u64 x = mulFull(a.hi, b.lo).hi;
@@ -106,7 +106,7 @@ inline constexpr Coefficients kInverseFactorial = inverseFactorials(); // 1 / n!
 inline constexpr Coefficients kInverseOdd = inverseWeights();          // 1 / (2 n + 1)
 
 // The sum of c[first + step * k] * z^k, k = 0 to terms, with alternating signs or without; z is Q0.128, below 1. There
-// are fewer terms than kTerms, which the loop says for those who look for the longest path through its code.
+// are fewer terms than kTerms; the loop states this bound for analyses of the longest path.
 RUNG_SHARED U128 series(const Coefficients& c, u32 first, u32 step, u32 terms, bool alternating, U128 z) noexcept {
   U128 sum = c.at[first + step * terms];
   for (u32 k = terms % kTerms; k-- != 0;) {
@@ -132,7 +132,7 @@ constexpr Wide normalised(U128 m, i32 e, bool negative) noexcept {
 constexpr Wide fromInt(i64 a) noexcept {
   return normalised({a < 0 ? 0 - static_cast<u64>(a) : static_cast<u64>(a), 0}, 63, a < 0);
 }
-// Of a finite number.
+// x must be finite.
 RUNG_SHARED Wide fromDouble(double x) noexcept {
   const u64 bits = toBits(x);
   const i32 exponent = static_cast<i32>(bits >> 52 & 0x7FF);
@@ -163,7 +163,7 @@ RUNG_SHARED Wide divide(const Wide& a, const Wide& b) noexcept {
   return normalised(mul(a.m, y), a.e - b.e + 1, a.negative != b.negative);
 }
 
-// Of a positive number: Newton's method for 1 / sqrt, from the root of the upper 64 bits.
+// a must not be negative. Newton's method for 1 / sqrt, from the root of the upper 64 bits.
 RUNG_SHARED Wide squareRoot(const Wide& a) noexcept {
   if (isZero(a.m)) return a;
   const bool odd = (a.e & 1) != 0;
@@ -183,8 +183,8 @@ RUNG_SHARED Wide squareRoot(const Wide& a) noexcept {
   return normalised(mul(f, r), (odd ? a.e + 1 : a.e + 2) / 2 + 1, false);
 }
 
-// To the nearest double, ties to even. `exact`: the value may be a double or lie in the middle between two; what is
-// nearer to the middle than the error of the computation is taken for it.
+// Rounds to the nearest double, ties to even. `exact`: the exact value may be a double or halfway between two; a value
+// closer to halfway than the error of the computation is treated as halfway.
 RUNG_SHARED double toDouble(const Wide& a, bool exact = false) noexcept {
   const u64 sign = a.negative ? 1ull << 63 : 0;
   if (isZero(a.m) || a.e < -1075) return fromBits(sign);
@@ -234,7 +234,7 @@ RUNG_SHARED Wide exponential(const Wide& x) noexcept {
   return normalised(series(kInverseFactorial, 0, 1, 30, false, r), k, false);
 }
 
-// Of a positive number.
+// x must be positive.
 RUNG_SHARED Wide logarithm(const Wide& x) noexcept {
   constexpr u64 kRoot2 = 0xB504F333F9DE6484ull;
   const bool low = x.m.hi < kRoot2;
@@ -249,7 +249,7 @@ RUNG_SHARED Wide logarithm(const Wide& x) noexcept {
 }
 
 // ---- angles --------------------------------------------------------------------------------------------------------
-// 2 / pi, from 64 bits before the point on.
+// The bits of 2 / pi, starting 64 bits before the point.
 struct TwoOverPi {
   u64 at[21];
 };
@@ -266,12 +266,12 @@ struct Reduced {
   u32 quadrant;
 };
 
-// The angle times 2 / pi: only those 256 bits of 2 / pi count that make neither whole turns nor less than the result
-// needs (Payne and Hanek).
+// The angle times 2 / pi, computed with the 256 bits of 2 / pi that contribute neither whole turns nor less than the
+// precision of the result (Payne and Hanek).
 RUNG_SHARED Reduced reduced(const Wide& x) noexcept {
   if (x.e < -1 || (x.e == -1 && x.m.hi < kHalfPi.m.hi)) return {x, 0};
   const u64 m = x.m.hi >> 11;                   // |x| = m * 2^(e - 52)
-  const u32 first = static_cast<u32>(x.e + 10); // of the bits that count, as an index into the table
+  const u32 first = static_cast<u32>(x.e + 10); // first bit used, as an index into the table
   const u32 word = first / 64;
   const u32 shift = first % 64;
   u64 y[4] = {}; // |x| * 2 / pi modulo 4, Q2.254, the highest word first
@@ -354,8 +354,8 @@ constexpr Wide magnitude(const Wide& x) noexcept { return {x.m, x.e, false}; }
 constexpr bool isInfinite(double x) noexcept { return toBits(x) << 1 == 0x7FFull << 53; }
 constexpr bool isFinite(double x) noexcept { return (toBits(x) >> 52 & 0x7FF) != 0x7FF; }
 
-// The root of -0 is -0; of less there is none: NaN. Every machine's own root is exact (IEEE 754), so it is taken; a
-// compiler that has to know the value computes it.
+// The root of -0 is -0, that of a negative number NaN. The machine's own root is correctly rounded (IEEE 754), so it is
+// used; constant evaluation computes it here.
 constexpr double fsqrt(double x) noexcept {
   if (x == 0) return x;
   if (!(x > 0)) return fromBits(kNanBits);
@@ -364,8 +364,8 @@ constexpr double fsqrt(double x) noexcept {
   return wide::toDouble(wide::squareRoot(wide::fromDouble(x)));
 }
 
-// The rules of IEEE 754 for pow: whatever to the power of 0 is 1, 1 to the power of whatever is 1; a negative base has
-// powers to whole exponents only; +-0 and infinities by their limits.
+// The rules of IEEE 754 for pow: any base to the power of 0 is 1, 1 to any power is 1; a negative base has only powers
+// with whole exponents; +-0 and infinities follow their limits.
 RUNG_SHARED double fpow(double x, double y) noexcept {
   constexpr u64 kInfinity = 0x7FFull << 52;
   if (y == 0 || x == 1) return 1;
@@ -388,7 +388,7 @@ RUNG_SHARED double fpow(double x, double y) noexcept {
   return wide::toDouble(result, true);
 }
 
-// Angles are in radians; of an infinite angle nothing is known: NaN.
+// Angles are in radians; an infinite angle gives NaN.
 RUNG_SHARED double fsin(double x) noexcept {
   if (x == 0) return x;
   if (!isFinite(x)) return fromBits(kNanBits);
@@ -400,8 +400,7 @@ RUNG_SHARED double fcos(double x) noexcept {
   a.quadrant = (a.quadrant + 1) & 3;
   return wide::toDouble(wide::sine(a));
 }
-// Where an odd multiple of pi/2 is not farther than the distance of two neighbouring doubles, there is no tangent: NaN.
-// From 2^53 on that is everywhere.
+// NaN if an odd multiple of pi/2 is within the distance of two neighbouring doubles, so always from 2^53 on.
 RUNG_SHARED double ftan(double x) noexcept {
   if (x == 0) return x;
   if (!isFinite(x) || fabsolute(x) >= 9007199254740992.0) return fromBits(kNanBits);
@@ -415,7 +414,7 @@ RUNG_SHARED double ftan(double x) noexcept {
   return wide::toDouble(odd ? wide::negate(wide::divide(c, s)) : wide::divide(s, c));
 }
 
-// Outside of -1 to 1: NaN.
+// Outside -1 to 1: NaN.
 RUNG_SHARED double fasin(double x) noexcept {
   if (x == 0) return x;
   if (!(fabsolute(x) <= 1)) return fromBits(kNanBits);
@@ -444,7 +443,7 @@ RUNG_SHARED double fexp(double x) noexcept {
   if (isInfinite(x)) return x > 0 ? x : 0;
   return wide::toDouble(wide::exponential(wide::fromDouble(x)));
 }
-// Of 0 -infinity, of less NaN.
+// For 0 -infinity, for a negative number NaN.
 RUNG_SHARED double flog(double x) noexcept {
   if (x == 0) return fromBits(0xFFFull << 52);
   if (!(x > 0)) return fromBits(kNanBits);

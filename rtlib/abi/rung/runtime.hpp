@@ -1,5 +1,6 @@
-// rung/runtime.h for C++20: handles that end themselves, values by their C++ type, errors as exceptions. What is called
-// in a scan throws nothing and gives the status. Each function of rung/runtime.h is here; it says what they do.
+// rung/runtime.h for C++20: handles that free themselves, values by their C++ type, errors as exceptions. Functions
+// that are called in a scan do not throw, but return the status. Every function of rung/runtime.h is here, and is
+// documented there.
 #ifndef RUNG_RUNTIME_HPP
 #define RUNG_RUNTIME_HPP
 
@@ -18,19 +19,19 @@ namespace rung {
 class Error : public std::runtime_error {
 public:
   Error(int32_t status, const char* text) : std::runtime_error(text), status_(status) {}
-  int32_t status() const noexcept { return status_; } // enum rung_status, below 0; or RUNG_LATER of Forces
+  int32_t status() const noexcept { return status_; } // enum rung_status, below 0; or RUNG_LATER from Forces
 
 private:
   int32_t status_;
 };
 
-// The status, where it is not an error.
+// Returns the status, or throws if it is an error.
 inline int32_t check(int32_t status) {
   if (status < 0) throw Error(status, rung_error_text());
   return status;
 }
 
-// A struct of rung/runtime.h with its size.
+// A struct of rung/runtime.h with its size set.
 template <class Struct>
 Struct sized() {
   Struct out{};
@@ -38,10 +39,10 @@ Struct sized() {
   return out;
 }
 
-// Of the library: major << 16 | minor.
+// The version of the library: major << 16 | minor.
 inline uint32_t runtimeVersion() noexcept { return rung_runtime_version(); }
 
-// All that `get` gives for the numbers from 0 on, until there is nothing more.
+// The results of `get` for the indices from 0 on, until there are no more.
 template <class Struct, class Get>
 std::vector<Struct> each(Get get) {
   std::vector<Struct> all;
@@ -50,8 +51,8 @@ std::vector<Struct> each(Get get) {
   return all;
 }
 
-// What a name is for this access (enum rung_access, added up). Nothing: it cannot be found, and rung_error_text says
-// why.
+// Describes a name for this access (values of enum rung_access, added). Nothing: it cannot be found, and
+// rung_error_text says why.
 inline std::optional<rung_cell_info> cellInfo(rung_instance* instance, const std::string& name, int32_t access) {
   auto info = sized<rung_cell_info>();
   int64_t value = 0;
@@ -77,8 +78,8 @@ public:
     check(rung_image_open_memory(file, name.c_str(), &image));
     return Image(image);
   }
-  // Over a program in memory, with what its chunks find in rung_ctx::engine; `release` is called with `owner` at its
-  // end.
+  // An image of a program in memory, whose chunks find `engine` in rung_ctx::engine; `release` is called with `owner`
+  // when the image is no longer used.
   static Image adopt(const rung_program& program, void* engine = nullptr, void (*release)(void*) = nullptr,
                      void* owner = nullptr) {
     rung_image* image = nullptr;
@@ -96,8 +97,8 @@ private:
   std::unique_ptr<rung_image, Ends<rung_image, rung_image_close>> image_;
 };
 
-// All of the file that an image was opened from, as rung_image_file gives it; "" without one, and of more than `most`
-// bytes.
+// The whole file from which an image was opened, as rung_image_file reads it; "" if there is none, or it has more than
+// `most` bytes.
 inline std::string fileOf(const rung_image* image, size_t most = static_cast<size_t>(-1)) {
   constexpr size_t kPiece = size_t{1} << 20;
   std::string bytes;
@@ -130,18 +131,18 @@ public:
 
   void keep(const std::string& path) { check(rung_instance_keep(handle(), path.c_str())); }
   void flush() { check(rung_instance_flush(handle())); }
-  // Why the last try to write retained memory failed; nothing: it did not.
+  // Why the last attempt to write retained memory failed; nothing if it did not fail.
   std::optional<std::string> unsaved() const {
     char text[512];
     return check(rung_instance_unsaved(handle(), text, sizeof text)) == RUNG_OK ? std::optional<std::string>(text)
                                                                                 : std::nullopt;
   }
-  // RUNG_FAULTED: what runs at a power-on has faulted.
+  // RUNG_FAULTED: a task that runs at power-on has faulted.
   int32_t powerOn(Power power = Power::Warm) {
     return check(rung_instance_power_on(handle(), static_cast<int32_t>(power)));
   }
   void powerOff() { check(rung_instance_power_off(handle())); }
-  // True: the program needs a further scan before it.
+  // True: the program needs a further scan before the power-off.
   bool beginPowerOff() noexcept { return rung_instance_begin_power_off(handle()) == RUNG_LATER; }
 
   int32_t runDue(int64_t elapsedNs) noexcept { return rung_instance_run_due(handle(), elapsedNs); }
@@ -182,7 +183,7 @@ public:
     check(rung_instance_cell(handle(), cell, &out));
     return out;
   }
-  // An arithmetic type: double or float for a cell of a real, an integer or bool for all others.
+  // T is an arithmetic type: double or float for a cell of a real, an integer or bool for all others.
   template <class T>
   T read(rung_cell cell, uint32_t element = 0) const {
     rung_value value{};
@@ -201,7 +202,7 @@ public:
       out.integer = static_cast<int64_t>(value);
     check(rung_instance_write(handle(), cell, element, 1, &out));
   }
-  // The first elements of cells; a value for each, or RUNG_BAD_ARGUMENT.
+  // The first elements of cells. `values` must have an element for each cell, else RUNG_BAD_ARGUMENT.
   int32_t readAll(std::span<const rung_cell> cells, std::span<rung_value> values) const noexcept {
     rung_value* to = values.size() == cells.size() ? values.data() : nullptr;
     return rung_instance_read_all(handle(), cells.data(), static_cast<uint32_t>(cells.size()), to);
@@ -211,7 +212,7 @@ public:
     return rung_instance_write_all(handle(), cells.data(), static_cast<uint32_t>(cells.size()), from);
   }
   std::string text(rung_cell cell) const {
-    std::string out(4 * size_t{describe(cell).count} + 1, 0); // a byte of memory has at most four in UTF-8
+    std::string out(4 * size_t{describe(cell).count} + 1, 0); // a byte of memory takes at most four in UTF-8
     check(rung_instance_read_text(handle(), cell, out.data(), out.size()));
     out.resize(out.find('\0'));
     return out;
@@ -220,7 +221,7 @@ public:
     check(rung_instance_write_text(handle(), cell, text.c_str()));
   }
 
-  // A variable of the host, which outlives the instance, before or after every slice.
+  // Bind a variable of the host, which outlives the instance and is copied before or after every slice.
   template <class T>
   void bindInput(const std::string& name, const T& variable, double scale = 1) {
     bind(name, const_cast<T*>(&variable), hostType<T>(), RUNG_TO_PROGRAM, scale);
@@ -229,7 +230,7 @@ public:
   void bindOutput(const std::string& name, T& variable, double scale = 1) {
     bind(name, &variable, hostType<T>(), RUNG_FROM_PROGRAM, scale);
   }
-  // An array or a struct of the host, which outlives the instance, for the bytes from a cell on.
+  // Bind an array or a struct of the host, which outlives the instance, to the bytes from a cell on.
   template <class T>
   void bindInputBlock(const std::string& name, const T& block) {
     bindBlock(name, block, RUNG_TO_PROGRAM);
@@ -239,12 +240,12 @@ public:
     bindBlock(name, block, RUNG_FROM_PROGRAM);
   }
 
-  // A struct of the host, which outlives the instance, with the layout that rungc bind has made.
+  // Binds a struct of the host, which outlives the instance, with a layout made by rungc bind.
   template <class T>
   void bindStruct(const rung_layout& layout, T& address) {
     check(rung_instance_bind_struct(handle(), &layout, &address));
   }
-  // Slices in a row without a whole copy of a struct that is bound; none: it has no counters.
+  // Successive slices without a consistent copy of a bound struct; nothing: no struct with counters is bound there.
   std::optional<uint32_t> inconsistent(const void* address) const noexcept {
     uint32_t slices = 0;
     return rung_instance_inconsistent(handle(), address, &slices) == RUNG_OK ? std::optional(slices) : std::nullopt;
@@ -261,14 +262,14 @@ public:
     return each<rung_message_info>([this](uint32_t i, auto* out) { return rung_instance_shown(handle(), i, out); });
   }
 
-  // Requests that wait (RUNG_QUEUE), and their answers.
+  // Queued requests (RUNG_QUEUE), and their answers.
   std::optional<rung_request> nextRequest() {
     auto out = sized<rung_request>();
     return check(rung_instance_next_request(handle(), &out)) == RUNG_OK ? std::optional(out) : std::nullopt;
   }
   int32_t answer(const rung_reply& reply) noexcept { return rung_instance_answer(handle(), &reply); }
 
-  // Functions of a part program; channels are from 0.
+  // Functions of a part program; channels count from 0.
   int32_t beginFunction(uint32_t channel, rung_function_kind kind, uint32_t code, uint32_t& line) noexcept {
     return rung_instance_begin_function(handle(), channel, kind, code, &line);
   }
@@ -286,19 +287,19 @@ public:
   int32_t serving(bool isServed) noexcept { return rung_instance_serving(handle(), isServed ? 1 : 0); }
   void axisGroup(uint32_t axis, uint32_t group) { check(rung_instance_axis_group(handle(), axis, group)); }
 
-  // Another program takes over, runs beside this one, a set of forces is in effect; each until it ends, or its end is
-  // asked for.
+  // Another program takes over; a shadow runs beside this program; a set of forces is active. Shadow and forces last
+  // until they end or are ended here.
   int32_t replace(const Replacement& replacement) noexcept;
   int32_t beginShadow(const Shadow& shadow) noexcept;
   int32_t endShadow() noexcept { return rung_instance_shadow(handle(), nullptr); }
   int32_t force(const Forces& forces) noexcept;
   int32_t endForces() noexcept { return rung_instance_force(handle(), nullptr); }
-  // What is forced now.
+  // The active forces.
   std::vector<rung_force_info> forced() const {
     return each<rung_force_info>([this](uint32_t i, auto* out) { return rung_instance_forced(handle(), i, out); });
   }
 
-  // Of the index-th rung of the program's tables; nothing: there are not so many.
+  // The profile of the rung with this index in the program's tables; nothing: there are not that many.
   std::optional<rung_profile> profile(uint32_t index) const {
     auto out = sized<rung_profile>();
     return check(rung_instance_profile(handle(), index, &out)) == RUNG_OK ? std::optional(out) : std::nullopt;
@@ -342,10 +343,10 @@ private:
   std::unique_ptr<rung_instance, Ends<rung_instance, rung_instance_free>> instance_;
 };
 
-// Another program for an instance (rung_replacement_new); it ends before the instance does.
+// Another program for an instance (rung_replacement_new). It must be destroyed before the instance.
 class Replacement {
 public:
-  // `memory`: of the new program, for the life of the instance; empty: the library's.
+  // `memory`: the memory block of the new program, for the life of the instance; empty: the library allocates it.
   Replacement(Instance& instance, const Image& image, std::span<uint8_t> memory = {}) {
     rung_replacement* replacement = nullptr;
     check(rung_replacement_new(instance.handle(), image.handle(), memory.data(), memory.size(), &replacement));
@@ -370,7 +371,8 @@ private:
   std::unique_ptr<rung_replacement, Ends<rung_replacement, rung_replacement_free>> replacement_;
 };
 
-// A program beside the one that runs (rung_shadow_new); it ends before the instance does, in its thread.
+// A shadow of the running program (rung_shadow_new). It must be destroyed before the instance, in the instance's
+// thread.
 class Shadow {
 public:
   Shadow(Instance& instance, const Image& image, uint32_t scans, uint32_t room = 64) {
@@ -386,7 +388,7 @@ public:
     check(rung_shadow_report(handle(), &out));
     return out;
   }
-  // Of the last report.
+  // The differences of the last report.
   std::vector<rung_difference> differences() const {
     return each<rung_difference>([this](uint32_t i, auto* out) { return rung_shadow_difference(handle(), i, out); });
   }
@@ -395,8 +397,8 @@ private:
   std::unique_ptr<rung_shadow, Ends<rung_shadow, rung_shadow_free>> shadow_;
 };
 
-// A set of forced cells (rung_forces_new), for the program that runs or for that of a replacement. It ends before the
-// instance does; while it is in effect, in the instance's thread.
+// A set of forced cells (rung_forces_new), for the running program or for that of a replacement. It must be destroyed
+// before the instance; while it is active, in the instance's thread.
 class Forces {
 public:
   Forces(Instance& instance, std::span<const rung_forced_cell> cells, Replacement* replacement = nullptr) {
@@ -421,7 +423,7 @@ inline int32_t Instance::beginShadow(const Shadow& shadow) noexcept {
 }
 inline int32_t Instance::force(const Forces& forces) noexcept { return rung_instance_force(handle(), forces.handle()); }
 
-// Cells that other threads look at (rung_watch_new); it ends before the instance does.
+// Cells that other threads watch (rung_watch_new). It must be destroyed before the instance.
 class Watch {
 public:
   struct Sample {
@@ -451,7 +453,7 @@ private:
   std::unique_ptr<rung_watch, Ends<rung_watch, rung_watch_free>> watch_;
 };
 
-// The scans of a watch as a file for wave viewers (rung_trace_new); it ends before the watch does.
+// The scans of a watch as a file for wave viewers (rung_trace_new). It must be destroyed before the watch.
 class Trace {
 public:
   Trace(Watch& watch, const std::string& path) {
@@ -461,9 +463,9 @@ public:
   }
   rung_trace* handle() const noexcept { return trace_.get(); }
 
-  // False: no scan waited.
+  // False: there were no scans to write.
   bool write() { return check(rung_trace_write(handle())) == RUNG_OK; }
-  // Throws where the file is not whole, which the destructor does not say.
+  // Ends the file; throws if it is incomplete, which the destructor does not report.
   void end() { check(rung_trace_free(trace_.release())); }
 
 private:

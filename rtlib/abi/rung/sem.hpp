@@ -1,6 +1,7 @@
-// The arithmetic of the IR: every decision that is not the machine's own is here, once. The constant folder, the
-// interpreter and generated C++ call these functions; the LLVM back end links them as bitcode. All are total: there is
-// no input without a defined result. Freestanding: no header but <stdint.h>. Sine and its relatives are in real.hpp.
+// The arithmetic of the IR: the only definition of every operation that machines do not define alike. The constant
+// folder, the interpreter and generated C++ call these functions; the LLVM back end links them as bitcode. All are
+// total: every input has a defined result. Freestanding: the only header is <stdint.h>. Elementary functions such as
+// sine are in real.hpp.
 #ifndef RUNG_SEM_HPP
 #define RUNG_SEM_HPP
 
@@ -17,7 +18,7 @@ using i16 = int16_t;
 using i32 = int32_t;
 using i64 = int64_t;
 
-// The signed type of the same width. Values travel as unsigned integers; signedness is the operation's.
+// The signed type of the same width. Values are passed as unsigned integers; the operation determines the sign.
 template <class U>
 struct SignedOf;
 template <>
@@ -47,7 +48,7 @@ constexpr u32 bitsOf() noexcept {
 }
 
 // ---- bits, which are bool, and integers ---------------------------------------------------------------------------
-// Of bits too by & and |: && and || would ask for jumps, which compilers then keep as conditional moves.
+// Bits are combined by & and |, too: && and || would require jumps, which compilers would keep as conditional moves.
 template <class U>
 constexpr U bitAnd(U a, U b) noexcept {
   return static_cast<U>(a & b);
@@ -78,7 +79,7 @@ constexpr U choose(bool which, U a, U b) noexcept {
   return which ? a : b;
 }
 
-// To another width.
+// Conversions to another width.
 template <class To, class From>
 constexpr To widen(From a) noexcept {
   return static_cast<To>(a);
@@ -91,7 +92,7 @@ template <class To>
 constexpr To widenSigned(bool a) noexcept {
   return static_cast<To>(0 - static_cast<u64>(a));
 }
-// To a bit, the lowest one: a plain cast to bool asks whether any bit is set.
+// Conversion to a bit takes the lowest bit, whereas a cast to bool tests all bits.
 template <class To>
 inline constexpr bool kIsBit = false;
 template <>
@@ -182,7 +183,7 @@ constexpr U popCount(U a) noexcept {
   return n;
 }
 
-// Packed BCD, one digit a nibble. Encoding drops the digits above the width; decoding takes a nibble above 9 as its
+// Packed BCD, one digit per nibble. Encoding drops digits above the width; decoding uses a nibble above 9 with its
 // value.
 template <class U>
 constexpr U bcdEncode(U a) noexcept {
@@ -199,7 +200,7 @@ constexpr U bcdDecode(U a) noexcept {
 }
 
 // ---- floating point: IEEE 754 double, nearest even, and one NaN ---------------------------------------------------
-// Results that are NaN are this one, so that engines and targets agree to the bit.
+// Every NaN result has these bits, so that engines and targets agree to the bit.
 constexpr u64 kNanBits = 0x7FF8000000000000ull;
 
 constexpr u64 toBits(double x) noexcept { return __builtin_bit_cast(u64, x); }
@@ -222,7 +223,7 @@ constexpr bool fle(double a, double b) noexcept { return a <= b; }
 constexpr double fneg(double a) noexcept { return fromBits(toBits(a) ^ (1ull << 63)); }
 constexpr double fabsolute(double a) noexcept { return fromBits(toBits(a) & ~(1ull << 63)); }
 
-// Toward zero, saturating; NaN gives 0.
+// Conversion toward zero, saturating; NaN gives 0.
 template <class U>
 constexpr U fToInt(double x) noexcept {
   constexpr double kLimit = static_cast<double>(1ull << (bitsOf<U>() - 1)); // 2^(w-1), exact
@@ -232,7 +233,7 @@ constexpr U fToInt(double x) noexcept {
   if (x < -kLimit) return kMin;
   return static_cast<U>(static_cast<i64>(x));
 }
-// To nearest, ties to even; NaN and everything out of range give the smallest number (the x87 rule).
+// Conversion to nearest, ties to even; NaN and values out of range give the smallest number (the x87 rule).
 constexpr u64 fToIntNearest(double x) noexcept {
   constexpr double kTwo52 = 4503599627370496.0;
   constexpr double kTwo63 = 9223372036854775808.0;

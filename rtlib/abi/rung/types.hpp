@@ -1,4 +1,4 @@
-// What types of cells (rung_type) and keys in the program tables mean. C++; the tables themselves are C.
+// The meaning of types of cells (rung_type) and of keys in the program tables. C++; the tables themselves are C.
 #ifndef RUNG_TYPES_HPP
 #define RUNG_TYPES_HPP
 
@@ -8,7 +8,7 @@
 
 namespace rung {
 
-// Bits of one element of a symbol or slot; 0: no rung_type has this number.
+// Bits of one element of a symbol or slot; 0: not a rung_type.
 constexpr uint32_t elementBits(uint32_t type) {
   switch (type) {
   case RUNG_TYPE_BIT: return 1;
@@ -25,12 +25,13 @@ constexpr uint32_t elementBits(uint32_t type) {
 // Bytes of the memory block that one byte of a space takes in this representation (rung_range::repr).
 constexpr uint32_t bytesPerByte(uint32_t repr) { return repr == RUNG_REPR_BYTE_PER_BIT ? 8 : 1; }
 
-// The key of a rung: of its text and its routine's name, and of how many rungs before it there have the same text.
+// The key of a rung. `text` is a hash of its text and its routine's name, `copy` the number of earlier rungs of the
+// routine with the same text.
 constexpr uint64_t rungKey(uint64_t text, uint32_t copy) {
   constexpr uint64_t kStep = 0x9E37'79B9'7F4A'7C15;
   return text + kStep * copy;
 }
-// Back to the text.
+// The `text` of a key.
 constexpr uint64_t textOfKey(uint64_t key, uint32_t copy) { return key - rungKey(0, copy); }
 
 } // namespace rung

@@ -1,4 +1,4 @@
-// What the controls of all dialects have in common.
+// The common part of the controls of all dialects.
 #include "rtlib/nc/control/control.h"
 
 #include <algorithm>
@@ -67,7 +67,7 @@ std::unique_ptr<Control> makeControl(std::string_view dialect) {
   return std::make_unique<Control>();
 }
 
-// Load and save.
+// Loading and saving retained memory.
 
 Retention::Retention(Control& control, runtime::Instance& instance, const std::string& file, runtime::RetainTake take,
                      const runtime::Outside& outside)

@@ -28,10 +28,10 @@ private:
   std::vector<std::vector<std::string>> rows_;
 };
 
-/// The number at the start of text from `pos`; moves pos past it; no digit there gives false.
+/// Reads the number at `pos` and moves `pos` past it. False: there is no digit.
 bool readNumber(std::string_view text, size_t& pos, uint32_t& value);
 
-/// "PREFIX<number>" and nothing else.
+/// Whether the text is "PREFIX<number>" and nothing else.
 bool matchNumber(std::string_view text, std::string_view prefix, uint32_t& value);
 
 } // namespace rung::nc::gen

@@ -1,4 +1,5 @@
-// The parts of the signal generator: one layout function a dialect gives every row its place, emit writes C++.
+// The parts of the signal generator: one layout function for each dialect assigns every row its place, `emit` writes
+// C++.
 #pragma once
 
 #include "rtlib/nc/gen/csv.h"

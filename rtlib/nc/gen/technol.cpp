@@ -47,9 +47,9 @@ public:
 private:
   struct Area {
     std::vector<size_t> rows;
-    uint32_t size = 0; // bytes up to here
+    uint32_t size = 0; // bytes so far
     uint32_t freeBits = 0;
-    std::string bitGroup; // whose bits share the last byte
+    std::string bitGroup; // group whose bits share the last byte
     Direction bitDirection = Direction::In;
     enum { Waiting, Running, Done } state = Waiting;
   };
@@ -63,7 +63,7 @@ private:
     row.address = table_.at(i, "index");
     row.group = table_.at(i, "group");
     if (row.type == SignalType::Struct) row.structure = table_.at(i, "layout");
-    // Lengths that are not printed.
+    // The manual does not print these lengths.
     row.inferred = row.type == SignalType::String || row.symbol.find("pINOUT_") != std::string::npos;
     readIndex(i, row);
     row.area = areaOf(row);
@@ -85,7 +85,7 @@ private:
   std::unordered_map<std::string, size_t> cells_;
 };
 
-/// Bounds "0..15", weights, or the name of a family member ("axis 3"), which needs no place.
+/// Reads the index: bounds "0..15", weights, or the name of a family member ("axis 3"), which needs no place.
 void TechnolLayout::readIndex(size_t i, Row& row) {
   const std::string& index = row.address;
   size_t pos = 0;
@@ -147,7 +147,7 @@ void TechnolLayout::append(Area& area, size_t i) {
 }
 
 void TechnolLayout::appendBits(Area& area, Row& row) {
-  // One direction a byte, so that the host can copy whole bytes.
+  // All bits of a byte have one direction, so that the host can copy whole bytes.
   if (area.bitGroup != row.group || area.bitDirection != row.direction) area.freeBits = 0;
   area.bitGroup = row.group;
   area.bitDirection = row.direction;

@@ -15,7 +15,7 @@ constexpr AxisField kFeed = {"feed", "mm/min or deg/min", 1, UINT16_MAX};
 constexpr AxisField kFeedPerTurn = {"feed", "0.0001 mm/rev or deg/rev", 1, UINT16_MAX};
 constexpr AxisField kJogFeed = {"speed", "mm/min or deg/min", 1, UINT16_MAX};
 constexpr AxisField kTurns = {"speed", "r/min", INT16_MIN, INT16_MAX};
-// P54: 0.1 um and 0.0001 mm are the same; l.3310 alone has 0.001 mm.
+// P54: 0.1 um and 0.0001 mm are the same; only l.3310 has 0.001 mm.
 constexpr AxisField kDistance = {"distance, incremental", "0.1 um", INT32_MIN, INT32_MAX};
 constexpr AxisField kCoordinate = {"machine coordinate", "0.1 um", INT32_MIN, INT32_MAX};
 constexpr AxisField kTime = {"time", "ms", 1, 9'999'999};

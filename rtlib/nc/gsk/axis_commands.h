@@ -1,6 +1,6 @@
-// PLC axis control of the GSK25i: the commands that AXLCTL hands over and the signals of the groups A-H that carry them
-// (man. Table 9-2, l.7713-7803; groups l.3332-3372, 7591-7629). The compiler checks and addresses by it, the control
-// takes blocks by it, the reference page prints it.
+// PLC axis control of the GSK25i: the commands of AXLCTL, and the signals of the groups A-H that transfer them (man.
+// Table 9-2, l.7713-7803; groups l.3332-3372, 7591-7629). Used by the compiler for checks and addresses, by the control
+// to take blocks, and by the reference page.
 #pragma once
 #include <cstdint>
 #include <span>
@@ -15,7 +15,7 @@ enum class AxisBuffering : uint8_t {
   Immediate, // changes the running command with every EBUF, only ECLR ends it (man. l.7735, 7771-7803)
 };
 
-// Data 1 (two bytes) or data 2 (four bytes). Without `meaning` nothing is to be set.
+// Data 1 (two bytes) or data 2 (four bytes). Without `meaning` the field is not used.
 struct AxisField {
   std::string_view meaning;
   std::string_view unit;
@@ -33,7 +33,7 @@ struct AxisCommand {
   uint16_t blockLine = 0; // of its data block
 };
 
-// Codes that are known by name.
+// Codes that have a name here.
 enum AxisCode : uint8_t {
   kAxisRapid = 0,
   kAxisFeed = 1,
@@ -54,7 +54,7 @@ constexpr bool isAxisReference(uint8_t code) { return code >= kAxisReference1 &&
 
 // In the order of their codes.
 std::span<const AxisCommand> axisCommands();
-// Null for a code that the table does not have.
+// Null for a code that is not in the table.
 const AxisCommand* findAxisCommand(uint64_t code);
 
 // The block of AXLCTL (man. l.3290-3298).
@@ -64,7 +64,7 @@ inline constexpr uint32_t kAxisData1At = 2;
 inline constexpr uint32_t kAxisData2At = 4;
 inline constexpr uint8_t kAxisCommandBits = 0x7F;
 
-inline constexpr int64_t kAxisStop = -1; // as a command of ServiceKind::MoveAxis: the axis stops
+inline constexpr int64_t kAxisStop = -1; // as a command of ServiceKind::MoveAxis: stop the axis
 
 // Byte addresses. The seven bytes from `command` are a program block: EC and EMSBK, EIF0-15, EID0-31.
 struct AxisGroup {

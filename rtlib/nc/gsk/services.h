@@ -1,4 +1,5 @@
-// What a GSK25i program asks of its CNC (man. §9.3, l.8482-8945), and its control for it (§9.2, l.7713-7803).
+// The services that a GSK25i program requests from its CNC (man. §9.3, l.8482-8945), and that its control requests for
+// it (§9.2, l.7713-7803).
 #pragma once
 #include "rtlib/nc/service.h"
 
@@ -8,8 +9,8 @@ enum class ServiceKind : uint8_t {
   Unknown,
   ReadWindow,
   WriteWindow,
-  // A command of PLC axis control: the axis from 0, command and data as in the block. It is answered when the axis has
-  // carried it out.
+  // A command of PLC axis control: axis from 0, command and data as in the block. It is answered when the axis has
+  // executed it.
   MoveAxis,
 };
 

@@ -56,7 +56,7 @@ constexpr WindowFunction open(uint16_t code, std::string_view title, WindowAcces
           .line = section.line};
 }
 
-// "(not open yet)" in the section, open in the list.
+// A function that is "(not open yet)" in its section, but open in the list.
 constexpr WindowFunction notYet(WindowFunction function) {
   function.status = ClosedInSection;
   return function;

@@ -1,5 +1,5 @@
-// The functions of the GSK25i window: what WINDR and WINDW may ask of the CNC (man. Table 5-49, l.3203-3239; control
-// data l.8686-8945). The compiler checks blocks by it, the simulated CNC answers by it, the reference page prints it.
+// The functions of the GSK25i window, which WINDR and WINDW request from the CNC (man. Table 5-49, l.3203-3239; control
+// data l.8686-8945). Used by the compiler to check blocks, by the simulated CNC to answer, and by the reference page.
 #pragma once
 #include <cstdint>
 #include <span>
@@ -15,7 +15,7 @@ enum class WindowSpeed : uint8_t { High, Low };
 enum class WindowStatus : uint8_t {
   Open,
   ClosedInList,    // "not open" in the list: the PLC refuses it with end code 6 (P49)
-  ClosedInSection, // only its own section says "not open yet": the CNC is asked and refuses it
+  ClosedInSection, // only its own section says "not open yet": the request reaches the CNC, which refuses it
 };
 
 // End codes (man. l.8668-8676).
@@ -42,7 +42,7 @@ inline constexpr uint32_t kWindowMaxLength = 4;
 // L is 1, 2 or 4 wherever it is given (man. l.8664, and every table of §9.3).
 constexpr bool isWindowLength(uint64_t bytes) { return bytes == 1 || bytes == 2 || bytes == 4; }
 
-// The number M or the attribute N. Without `meaning` the field means nothing (man. l.8661).
+// The number M or the attribute N. Without `meaning` the field is not used (man. l.8661).
 struct WindowField {
   std::string_view meaning;
   uint16_t min = 0;
@@ -59,15 +59,15 @@ struct WindowFunction {
   WindowField number = {};
   WindowField attribute = {};
   uint32_t scale = 0;            // data = value x scale; 0: no section describes the data
-  bool wholeOnly = false;        // what is written must be a multiple of the scale
+  bool wholeOnly = false;        // written data must be a multiple of the scale
   uint16_t listLine = 0;         // in Table 5-49
-  std::string_view section = {}; // of Part II; "" where there is none
+  std::string_view section = {}; // of Part II; "" if there is none
   uint16_t line = 0;             // of the section
 };
 
 // In the order of their codes.
 std::span<const WindowFunction> windowFunctions();
-// Null for a code that the list does not have.
+// Null for a code that is not in the list.
 const WindowFunction* findWindowFunction(uint64_t code);
 
 } // namespace rung::nc::gsk

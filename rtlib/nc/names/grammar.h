@@ -1,4 +1,4 @@
-// How a dialect writes names of places: a class a dialect; this one is that of a program whose dialect has none.
+// How a dialect writes names of places: one class for each dialect. The base class serves programs of unknown dialects.
 #pragma once
 #include <optional>
 #include <string>
@@ -17,20 +17,20 @@ public:
 
   // Names are looked up in upper case, as the program's tables have them.
   virtual bool ignoresCase() const { return false; }
-  // An address goes before a signal of the control with the same name.
+  // An address takes precedence over a signal of the control with the same name.
   virtual bool addressFirst() const { return false; }
   virtual bool hasAddresses() const { return true; }
-  // Bytes of the longest cell that a name may ask for: 4 or 8.
+  // Bytes of the longest cell that a name may denote: 4 or 8.
   virtual uint32_t longestCell() const { return 4; }
 
-  // The symbol of this name; null when there is none.
+  // The symbol of this name; null if there is none.
   virtual const rung_symbol* symbol(const rung_program& program, std::string_view name) const;
-  // A name that is not a symbol, of at least one character: NAME:bytes, NAME[n], CELL.n, NAME+n.
+  // Resolves a name that is not a symbol and not empty: NAME:bytes, NAME[n], CELL.n, NAME+n.
   virtual std::optional<runtime::Ref> takeApart(NameSearch& search, std::string_view name) const;
 
-  // The kind of number that the dialect has in a cell of this width.
+  // The place as the kind of number that the dialect has in a cell of this width.
   virtual runtime::Ref meant(const runtime::Ref& place) const { return place; }
-  // Of a place in one of the program's spaces: AREA+n, AREA+n.b.
+  // The address of a place in one of the program's spaces: AREA+n, AREA+n.b.
   virtual std::string address(const rung_program& program, const runtime::Ref& place) const;
   virtual std::string cellAddress(const rung_program& program, const runtime::Ref& place) const {
     return address(program, place);
@@ -38,34 +38,34 @@ public:
   virtual std::string placeName(const rung_program& program, const runtime::Ref& place) const;
 
 protected:
-  // The symbol with the fewest bytes that a bit or the first byte of the place is a part of; null when there is none.
+  // The shortest symbol that contains the bit or the first byte of the place; null if there is none.
   static const rung_symbol* shortestAt(const rung_program& program, const runtime::Ref& place);
 };
 
-// One look-up of a name, and what the grammars take names apart with. The program and the fallback outlive it.
+// One look-up of a name, with the helpers by which grammars parse names. The program and the fallback outlive it.
 class NameSearch {
 public:
   NameSearch(const rung_program& program, const NameGrammar& grammar, const NameFallback& fallback)
       : program_(program), grammar_(grammar), fallback_(fallback), memory_(program, nullptr) {}
 
-  // A symbol, a signal of the control, or what the grammar makes of the name.
+  // Finds a symbol, a signal of the control, or a place by the grammar's takeApart.
   std::optional<runtime::Ref> find(std::string_view name);
 
   const rung_program& program() const { return program_; }
   uint32_t space(std::string_view name) const;
-  // The place itself, or nothing when it lies outside of its space.
+  // The place itself, or nothing if it is outside its space.
   std::optional<runtime::Ref> inSpace(const std::optional<runtime::Ref>& ref) const;
   // Bit `digits` of the cell `name`.
   std::optional<runtime::Ref> bitIn(std::string_view name, std::string_view digits);
-  // One cell of so many bytes (1, 2, 4 or the longest) that begins where the integer does.
+  // A cell of `bytes` bytes (1, 2, 4 or the longest) at the address of the integer.
   std::optional<runtime::Ref> widened(std::optional<runtime::Ref> ref, std::optional<uint32_t> bytes) const;
-  // The same at NAME or NAME+n; there need be no room for a cell of NAME's own length.
+  // The same at NAME or NAME+n; a cell of NAME's own length need not fit there.
   std::optional<runtime::Ref> ofBytes(std::string_view name, std::optional<uint32_t> bytes);
 
-  // The real that begins where the cell does, as runtime::asReal.
+  // The real at the address of the cell, as runtime::asReal.
   std::optional<runtime::Ref> real(const std::optional<runtime::Ref>& ref) const;
 
-  // Texts and reals as integers, the form that has a width; nothing of a bit or a constant.
+  // Converts texts and reals to integers, whose width can be changed; nothing for a bit or a constant.
   static std::optional<runtime::Ref> inBytes(std::optional<runtime::Ref> ref);
   static bool allDigits(std::string_view text);
 

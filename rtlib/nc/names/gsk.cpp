@@ -12,7 +12,7 @@ namespace {
 
 class GskNames final : public NameGrammar {
 public:
-  // T10 is an address in programs, so it is one here, and not the signal of that name.
+  // T10 is an address in programs, so it is an address here, too, and not the signal of that name.
   bool addressFirst() const override { return true; }
 
   std::optional<Ref> takeApart(NameSearch& search, std::string_view name) const override {

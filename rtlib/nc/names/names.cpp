@@ -1,4 +1,4 @@
-// What names of all dialects have in common, and the table of the dialects (see names.h, grammar.h).
+// The common part of names in all dialects, and the table of the dialects (see names.h, grammar.h).
 #include "rtlib/nc/names/names.h"
 
 #include <algorithm>
@@ -39,7 +39,7 @@ uint32_t bytesOf(const rung_symbol& symbol) {
   return ref.kind == RefKind::Bit ? (ref.bit + ref.count + 7) / 8 : ref.width / 8u * ref.count;
 }
 
-// A bit symbol only counts where its own bit is asked for.
+// Whether the symbol contains the place; a bit symbol contains only its own bit.
 bool liesAt(const rung_symbol& symbol, const Ref& place) {
   if ((symbol.flags & RUNG_SYMBOL_CONST) != 0 || symbol.space != place.space) return false;
   if (place.byte < symbol.byte || place.byte - symbol.byte >= bytesOf(symbol)) return false;
@@ -47,7 +47,8 @@ bool liesAt(const rung_symbol& symbol, const Ref& place) {
   return place.kind == RefKind::Bit && symbol.bit == place.bit;
 }
 
-// A hidden name says something of a hidden space only; elsewhere it is a second one, for the compiler's own use.
+// Whether the name is shown: a hidden one only in a hidden space, because elsewhere it is a second name for the
+// compiler's own use.
 bool isShown(const rung_program& program, const rung_symbol& symbol) {
   const bool hidden = (symbol.flags & RUNG_SYMBOL_HIDDEN) != 0;
   return !hidden ||
@@ -60,7 +61,7 @@ std::string addressBy(const NameGrammar& grammar, const rung_program& program, c
 
 } // namespace
 
-// ---- grammar of a dialect without one of its own ----------------------------------------------------------------
+// ---- grammar of unknown dialects ---------------------------------------------------------------------------------
 
 const rung_symbol* NameGrammar::symbol(const rung_program& program, std::string_view name) const {
   return runtime::findSymbol(program, name);
@@ -78,7 +79,7 @@ std::optional<Ref> NameGrammar::takeApart(NameSearch& search, std::string_view n
     return search.bitIn(name.substr(0, dot), name.substr(dot + 1));
   const size_t plus = name.rfind('+');
   if (plus == std::string_view::npos) return std::nullopt;
-  // What begins so many bytes later, in the width of its cells.
+  // The cell `bytes` bytes further, of the same width.
   std::optional<Ref> ref = NameSearch::inBytes(search.find(name.substr(0, plus)));
   const std::optional<uint32_t> bytes = text::numberIn<uint32_t>(name.substr(plus + 1));
   if (!ref || !bytes || *bytes > 0xFFFFFFF) return std::nullopt;
@@ -207,7 +208,7 @@ std::string cellAddress(const rung_program& program, const Ref& place) {
 bool hasAddresses(const rung_program& program) { return grammarOf(program).hasAddresses(); }
 
 std::string describe(const rung_program& program, const Ref& place) {
-  if (!hasAddresses(program)) return address(program, place); // made of the names
+  if (!hasAddresses(program)) return address(program, place); // it consists of names
   constexpr int kMostNames = 3;
   const std::string text = address(program, place);
   std::string names;

@@ -16,8 +16,8 @@ namespace {
 
 constexpr std::string_view kMemory = "M";
 constexpr std::string_view kTimeSliceMemory = "TS";
-constexpr std::string_view kFlags = "FLAGS"; // word 0000; a symbol only where the program names it
-constexpr uint32_t kFirstNcByte = 8;         // words 0000 and 0001 are the program's
+constexpr std::string_view kFlags = "FLAGS"; // word 0000; a symbol only if the program declares it
+constexpr uint32_t kFirstNcByte = 8;         // words 0000 and 0001 belong to the program
 
 std::string padded(uint32_t value, size_t digits) {
   const std::string text = std::to_string(value);
@@ -40,17 +40,17 @@ std::optional<Ref> shifted(NameSearch& search, std::optional<Ref> ref, std::stri
   return search.inSpace(ref);
 }
 
-uint32_t bitIn(const Ref& place) { return place.byte % 4 * 8 + place.bit; } // of its word
+uint32_t bitIn(const Ref& place) { return place.byte % 4 * 8 + place.bit; } // in its word
 
-// What the manual calls a place of the NC area, for which it gives names and no addresses (man. l.6448): the word,
-// which is what is written at the terminals of the 24 V interface, else the bit. Null for a place that has no name, and
-// for the bits of a double.
+// The signal at a place of the NC area, for which the manual gives names and no addresses (man. l.6448): preferably the
+// word, as marked at the terminals of the 24 V interface, else the bit. Null for a place without a name, and for the
+// bits of a double.
 const Signal* signalAt(const Ref& place) {
   const uint32_t word = place.byte / 4 * 4;
   const bool isBit = place.kind == RefKind::Bit;
   const Signal* own = nullptr;
   for (const Signal& signal : nctSignals()) {
-    const uint32_t distance = word - signal.byteOffset; // of a word before it more than any signal has
+    const uint32_t distance = word - signal.byteOffset; // wraps to a large number for words before the signal
     if (distance >= signal.count * signal.strideBytes || distance % signal.strideBytes != 0) continue;
     if (signal.type == SignalType::Real && isBit) return nullptr;
     if (signal.type != SignalType::Bit) return &signal;
@@ -61,7 +61,7 @@ const Signal* signalAt(const Ref& place) {
 
 std::string bitText(const Ref& place) { return place.kind == RefKind::Bit ? "." + padded(bitIn(place), 2) : ""; }
 
-// Of a byte that is not the first of its word.
+// The suffix for a byte that is not the first of its word.
 std::string byteText(const Ref& place) {
   const uint32_t byte = place.byte % 4;
   return place.kind == RefKind::Bit || byte == 0 ? "" : " byte " + std::to_string(byte);
@@ -78,7 +78,7 @@ std::string signalText(const Signal& signal, const Ref& place) {
 class NctNames final : public NameGrammar {
 public:
   std::optional<Ref> takeApart(NameSearch& search, std::string_view name) const override {
-    if (name.starts_with(text::kRealPrefix)) // else a bit of the symbol REAL
+    if (name.starts_with(text::kRealPrefix)) // if not a real: a bit of the symbol REAL
       if (std::optional<Ref> real = search.real(search.find(name.substr(text::kRealPrefix.size())))) return real;
     if (name.front() == '!') {
       const std::optional<Ref> ref = search.find(name.substr(1));
@@ -111,7 +111,7 @@ public:
     return mark(area) + (signal != nullptr ? signalText(*signal, place) : numberText(place));
   }
 
-  // A signal's name alone is all its elements, and has their length.
+  // The name of a signal refers to all its elements, so it also gives the length.
   std::string cellAddress(const rung_program& program, const Ref& place) const override {
     const std::string_view area = program.spaces[place.space].name;
     const Signal* signal = area == kMemory || area == kTimeSliceMemory ? signalAt(place) : nullptr;

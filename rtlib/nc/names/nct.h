@@ -8,11 +8,11 @@ namespace rung::nc {
 
 const NameGrammar& nctNames();
 
-// Where a place of "M" is for the NC: in the time-slice memory where the program has its words twice, else the same
-// place. Words 0000 and 0001 are the program's in both.
+// The place of "M" that the NC accesses: in the time-slice memory if the program has its words twice, else the same
+// place. Words 0000 and 0001 belong to the program in both.
 runtime::Ref nctTimeSlicePlace(const rung_program& program, const runtime::Ref& place);
 
-// A signal of the NC by its name, in "M": all its elements, the first of them for a bit.
+// The place in "M" of a signal of the NC: all its elements; for a bit the first one.
 std::optional<runtime::Ref> nctSignalPlace(const rung_program& program, std::string_view name);
 
 } // namespace rung::nc

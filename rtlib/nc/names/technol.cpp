@@ -21,7 +21,7 @@ constexpr size_t kSignificant = 31; // characters of a symbol
 constexpr std::pair<std::string_view, uint32_t> kTypes[] = {
     {"BYTE.", 1}, {"WORD.", 2}, {"DWRD.", 4}, {"QWRD.", 8}, {text::kRealPrefix, 8}};
 
-// "WORD." at the beginning of the name, which loses it; its bytes.
+// Takes "WORD." and the like from the beginning of the name, and returns the number of bytes.
 std::optional<uint32_t> takeType(std::string_view& name) {
   for (const auto& [type, bytes] : kTypes) {
     if (!name.starts_with(type) || name.size() == type.size()) continue;
@@ -39,7 +39,7 @@ std::optional<Ref> weighted(const std::optional<Ref>& cell, const std::optional<
   return ref;
 }
 
-// "WORD." of a place that is as long.
+// The type prefix ("WORD.") for a place of this length.
 std::string_view typeOf(const Ref& place) {
   if (place.kind == RefKind::Real) return "REAL.";
   for (const auto& [type, bytes] : kTypes)
@@ -72,11 +72,11 @@ public:
     if (dot == std::string_view::npos || hasLength || name.back() == ']' || NameSearch::allDigits(name.substr(dot + 1)))
       return NameGrammar::takeApart(search, name);
     std::optional<Ref> cell = search.find(name.substr(0, dot));
-    if (!cell) cell = search.ofBytes(name.substr(0, dot), 1); // the end of a longer one, at the end of its space
+    if (!cell) cell = search.ofBytes(name.substr(0, dot), 1); // a byte near the end of the space
     return weighted(cell, search.find(name.substr(dot + 1)));
   }
 
-  // There are no addresses: CELL, CELL.3, NAME[2], NAME[2].3, and NAME+4 for what begins within a cell.
+  // There are no addresses: CELL, CELL.3, NAME[2], NAME[2].3, and NAME+4 for a place within a cell.
   std::string address(const rung_program& program, const Ref& place) const override {
     const rung_symbol* symbol = shortestAt(program, place);
     if (symbol == nullptr) return NameGrammar::address(program, place);

@@ -1,4 +1,4 @@
-// The text about a value that would be lost (see write.h).
+// Writing with an explanation for values that would be lost (see write.h).
 #include "rtlib/nc/names/write.h"
 
 #include "rtlib/nc/names/names.h"

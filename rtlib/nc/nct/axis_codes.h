@@ -1,5 +1,5 @@
-// The instruction codes of MOVCMND (man. §6.15, l.3126-3145). The compiler checks by it, the simulated NC moves by it,
-// the reference page prints it.
+// The instruction codes of MOVCMND (man. §6.15, l.3126-3145). Used by the compiler for checks, by the simulated NC for
+// motions, and by the reference page.
 #pragma once
 #include <cstdint>
 #include <span>

@@ -12,7 +12,7 @@ namespace rung::nc::nct {
 namespace {
 
 constexpr int kMostDecimals = 20;
-// Of a double: its digits before the point, the sign, the point and its decimals.
+// A double: digits before the point, sign, point and decimals.
 constexpr size_t kLongestNumber = 310 + 2 + kMostDecimals;
 
 class Writer {

@@ -1,5 +1,5 @@
 // Messages of NCT programs (man. §6.13): their codes, the words that a message box shares with the NC, and the numbers
-// printed in their texts. Compiler, model and hosts read it here.
+// printed in their texts. Shared by compiler, simulation and hosts.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -19,9 +19,9 @@ constexpr uint32_t messageCode(uint32_t number, uint32_t channel, uint32_t index
   return channel * 1'000'000 + number * 100 + index;
 }
 
-// Every message box owns two words of this space. `wanted` is the program's: the code that it sent with the rising edge
-// of its input, and kLogCell when the message goes to the log only; 0 while it has none. `shown` is set by the NC while
-// that code is on the screen, or when it has been registered in the log; the box clears both words at the falling edge.
+// Every message box owns two words of this space. The program writes `wanted`: the code that it sent with the rising
+// edge of its input, plus kLogCell if the message goes to the log only; 0 if it sends none. The NC sets `shown` while
+// that code is on the screen, or when it has been entered in the log; the box clears both words at the falling edge.
 inline constexpr const char* kMessageSpace = "@SHOWN";
 inline constexpr uint32_t kWantedWord = 0;
 inline constexpr uint32_t kShownWord = 1;
@@ -34,11 +34,11 @@ struct Placeholder {
   bool real = false;
   int decimals = 0;
 };
-// The one that begins with the `{` at text[0]; nothing when it is none.
+// Reads the placeholder that begins with the `{` at text[0]; nothing if it is not a placeholder.
 std::optional<Placeholder> readPlaceholder(std::string_view text);
 
-// The text with the message's number in place of its placeholders. Gives the characters written; what does not fit into
-// `out` is cut off. Allocates nothing.
+// Writes the text with the message's value in place of its placeholders. Returns the number of characters written;
+// longer texts are cut off. Allocates nothing.
 size_t fillText(std::string_view text, const rung_message& message, std::span<char> out);
 
 } // namespace rung::nc::nct

@@ -1,8 +1,8 @@
-// The buffer through which an MR or MW box and the NC hand each other an operand block (man. l.3440-3465, 3510-3540).
-// Every box owns one in the space "@MB": kBlockWords words as the manual numbers them (0 the execution code, 1 the
-// amount of data, from 2 on what the function says), and after them a mask with one bit a word, set for every word
-// that the NC answered. The box copies its block here, whatever its amount says, and clears the mask when it asks; the
-// NC answers here before it completes the request; the box takes word 0 and the masked words back.
+// The buffer by which an MR or MW box and the NC exchange an operand block (man. l.3440-3465, 3510-3540). Every box
+// owns one in the space "@MB": kBlockWords words as the manual numbers them (0: execution code, 1: amount of data, from
+// 2 on: words of the function), followed by a mask with a bit for each word that the NC has written. For a request the
+// box copies its block here, whatever its amount, and clears the mask; the NC writes its answer here before it
+// completes the request; the box then copies word 0 and the masked words back.
 #pragma once
 #include <bit>
 #include <cstdint>
@@ -16,12 +16,13 @@ inline constexpr const char* kBlockSpace = "@MB";
 // axes 68, MR 309 over a column of 128 doubles 261.
 inline constexpr uint32_t kBlockWords = 512;
 inline constexpr uint32_t kMaskWords = kBlockWords / 32;
-inline constexpr uint32_t kBlockStride = kBlockWords + kMaskWords; // words that a box owns
+inline constexpr uint32_t kBlockStride = kBlockWords + kMaskWords; // words of each box
 
 inline constexpr uint32_t kCodeWord = 0;
 inline constexpr uint32_t kAmountWord = 1;
 
-// One buffer: kBlockStride words of the space, or a copy of them. Words that do not exist read 0 and take nothing.
+// One buffer: kBlockStride words of the space, or a copy of them. Words past the end read 0, and writing them does
+// nothing.
 class Block {
 public:
   explicit Block(std::span<uint32_t> words) : words_(words) {}
@@ -33,7 +34,7 @@ public:
     return std::bit_cast<double>(uint64_t{static_cast<uint32_t>(word(n + 1))} << 32 | static_cast<uint32_t>(word(n)));
   }
 
-  // Answers: the word also goes back to the program.
+  // Answers of the NC: the word is copied back to the program.
   void setWord(uint32_t n, int32_t value) {
     if (n >= kBlockWords) return;
     words_[n] = static_cast<uint32_t>(value);

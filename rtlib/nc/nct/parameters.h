@@ -1,6 +1,6 @@
-// The parameters of the control that the PLC manual names: what MR 31/32 and MW 34/35 reach in the simulated NC (man.
-// 6.20). The manual gives names and meanings; where it does not say what indexes a parameter or in which format it is,
-// the row follows from its use.
+// The parameters of the control that the PLC manual names, which MR 31/32 and MW 34/35 access in the simulated NC (man.
+// 6.20). The manual gives names and meanings; where it does not give index or format of a parameter, the row follows
+// from its use.
 #pragma once
 #include <cstdint>
 #include <span>
@@ -18,7 +18,7 @@ inline constexpr uint32_t kChannels = 8;
 inline constexpr uint32_t kSpindles = 16;
 
 struct ParameterRow {
-  uint16_t number; // the first of `numbers` parameters in a row
+  uint16_t number; // the first of `numbers` consecutive parameters
   uint8_t numbers;
   ParameterFormat format;
   ParameterIndex index;
@@ -29,10 +29,10 @@ struct ParameterRow {
 
 // Sorted by number.
 std::span<const ParameterRow> parameterRows();
-// Null when there is none.
+// Null if there is none.
 const ParameterRow* findParameter(int64_t number);
 
-// How many values one parameter has; indices go from 1 to it, a global parameter has index 0.
+// The number of values of one parameter; its indices are 1 to this number, a global parameter has index 0.
 constexpr uint32_t valuesOf(ParameterIndex index) {
   switch (index) {
   case ParameterIndex::Global: return 1;

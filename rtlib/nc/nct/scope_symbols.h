@@ -1,5 +1,5 @@
-// The quantities of the NC that SCP queries (man. §6.17, l.3323-3388). The compiler checks by it, the simulated NC
-// answers by it, the reference page prints it. A request names a symbol by its index in this list.
+// The quantities of the NC that SCP queries (man. §6.17, l.3323-3388). Used by the compiler for checks, by the
+// simulated NC for answers, and by the reference page. A request refers to a symbol by its index in this list.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -8,7 +8,7 @@
 
 namespace rung::nc::nct {
 
-// Who knows the value: the NC, or the compiled program, whose own memory it is.
+// The source of the value: the NC, or the memory of the compiled program.
 enum class ScopeSource : uint8_t {
   Nc,
   PlcBit,

@@ -116,7 +116,7 @@ constexpr ExecutionCode kCodes[] = {
 };
 
 // --- blocks ---------------------------------------------------------------------------------------------------------
-constexpr uint16_t kMost = kBlockWords - 2; // where the manual has no limit
+constexpr uint16_t kMost = kBlockWords - 2; // if the manual has no limit
 
 constexpr BlockWord kNvramRead[] = {{2, 2, Input, "first variable in non-volatile memory (source), 0 to 1023"},
                                     {3, 3, Input, "first PLC address (destination), from PLCNVRAM on"},
@@ -286,8 +286,8 @@ constexpr Ranges3 only(uint16_t n) { return {one(n)}; }
 constexpr Ranges3 kToolAmounts = {{{3, 14}, {16, 17}, {19, 55, 2}}};
 constexpr Ranges3 kPalletAmounts = {{{3, 8}, {10, 14, 2}}};
 
-// The sections print of two functions what cannot be: MW 40 "not 1" where 2 is required (l.3923), MR 201 and MW 202
-// "not 3" (l.6132, l.6316). MW 40 has no code of its own for a channel that does not exist: 41 of the list.
+// Misprints of the sections: MW 40 "not 1", though 2 is required (l.3923), MR 201 and MW 202 "not 3" (l.6132, l.6316).
+// MW 40 has no code for a channel that does not exist: 41 of the list is used.
 constexpr ServiceFunction kFunctions[] = {
     {10, Read, "read variables from non-volatile memory", only(3), kNvramRead, Ranges5{{{0, 2}, one(4), {10, 12}}},
      "6.19.1", 3563},

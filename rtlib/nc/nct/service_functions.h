@@ -1,6 +1,6 @@
-// The functions of MR and MW: what the PLC may read from and write to the NC (man. §6.19-§6.28, l.3544-6320), and the
-// execution codes of their answers (§6.29, l.6324-6412). The compiler checks codes by it, the simulated NC answers by
-// it, the reference page prints it.
+// The functions of MR and MW, by which the PLC reads from and writes to the NC (man. §6.19-§6.28, l.3544-6320), and the
+// execution codes of their answers (§6.29, l.6324-6412). Used by the compiler to check codes, by the simulated NC to
+// answer, and by the reference page.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -52,8 +52,8 @@ struct ServiceFunction {
   uint16_t code = 0;
   FunctionAccess access = FunctionAccess::Read;
   std::string_view title;
-  // Amounts of data that the manual allows whatever the other words say; others give code 2. A function may refuse
-  // more of them, by what its words say.
+  // Amounts of data that the manual allows, whatever the other words are; any other amount gives code 2. A function may
+  // refuse further amounts, depending on its words.
   std::array<NumberRange, 3> amounts = {}; // unused entries begin with 0
   std::span<const BlockWord> words = {};   // from word 2 on
   std::array<NumberRange, 5> codes = {};   // execution codes; unused entries after the first begin with 0
@@ -66,7 +66,7 @@ struct ServiceFunction {
 
 // In the order of the manual.
 std::span<const ServiceFunction> serviceFunctions();
-// Null when there is none. Reading and writing functions have no code in common.
+// Null if there is none. Reading and writing functions have no code in common.
 const ServiceFunction* findServiceFunction(int64_t code);
 constexpr std::string_view mnemonicOf(FunctionAccess access) { return access == FunctionAccess::Read ? "MR" : "MW"; }
 

@@ -1,5 +1,5 @@
-// What an NCT program asks of its NC: functions of MR and MW (man. §6.18), macro variables (l.8070-8125), blocks of
-// movement (l.3082-3145), quantities of the scope (l.3323-3388).
+// The services that an NCT program requests from its NC: functions of MR and MW (man. §6.18), macro variables
+// (l.8070-8125), blocks of movement (l.3082-3145), quantities of the scope (l.3323-3388).
 #pragma once
 #include "rtlib/nc/service.h"
 

@@ -1,5 +1,5 @@
-// The list of windows (see windows.h). The rows of parameter 1 = -1 are in the manual one row above the identifier
-// that they belong to, without it (l.4159, l.4164).
+// The list of windows (see windows.h). In the manual the rows of parameter 1 = -1 are one row above their identifier
+// (l.4159, l.4164).
 #include "rtlib/nc/nct/windows.h"
 
 #include <algorithm>

@@ -11,7 +11,7 @@ struct ScreenWindow {
   std::string_view title;
   std::string_view parameter1 = {}; // "": not used
   std::string_view parameter2 = {};
-  bool hasViews = false; // parameter 1 is a view, -1 (as set last) to 3
+  bool hasViews = false; // parameter 1 is a view, 0 to 3, or -1: the last one
   uint16_t line = 0;
 };
 

@@ -57,7 +57,7 @@ constexpr std::u16string_view kCapital =
 
 constexpr const uint16_t* tableOf(CodePage page) { return page == CodePage::Cp852 ? kCp852 : kWindows1250; }
 
-// How much a character speaks for the code page that gives it: Czech letters do, above all small ones.
+// The weight of a character in favour of its code page: Czech letters count, small ones most.
 constexpr int weightOf(uint16_t character) {
   if (kSmall.find(static_cast<char16_t>(character)) != std::u16string_view::npos) return 3;
   if (kCapital.find(static_cast<char16_t>(character)) != std::u16string_view::npos) return 1;
@@ -83,7 +83,7 @@ void append(std::string& out, uint32_t c) {
   }
 }
 
-// The character at `at`, which is moved after it. A byte that begins none is itself.
+// The character at `at`, which is moved past it. A byte that does not begin a character is returned unchanged.
 uint32_t nextCharacter(std::string_view from, size_t& at) {
   const auto first = static_cast<unsigned char>(from[at++]);
   const size_t more = first >= 0xF0 ? 3 : first >= 0xE0 ? 2 : first >= 0xC0 ? 1 : 0;

@@ -11,18 +11,18 @@ namespace rung::nc {
 
 enum class CodePage : uint8_t { Windows1250, Cp852 };
 
-// Which of the two a Czech text is written in, by its letters; Windows-1250 when they do not decide it.
+// Guesses the code page of a Czech text by its letters; Windows-1250 if they do not decide it.
 CodePage guessCodePage(std::string_view text);
 
-// The character of a byte. Bytes that the code page leaves free keep their number.
+// The character of a byte. Bytes that the code page leaves undefined keep their number.
 uint32_t unicodeOf(CodePage page, uint8_t byte);
 std::string utf8From(CodePage page, std::string_view bytes);
 
-// The byte of a character in Windows-1250; nothing when it has none there.
+// The byte of a character in Windows-1250; nothing if there is none.
 std::optional<uint8_t> windows1250Of(uint32_t codePoint);
-// A text in UTF-8 as the memory holds it; a character that has no byte becomes `?`.
+// Converts a UTF-8 text to its form in memory; a character without a byte becomes `?`.
 std::string memoryText(std::string_view utf8);
-// A text of the memory as UTF-8.
+// Converts a text of the memory to UTF-8.
 inline std::string shownText(std::string_view bytes) { return utf8From(CodePage::Windows1250, bytes); }
 
 } // namespace rung::nc

@@ -1,5 +1,5 @@
-// The configuration keys of TECHNOL (see config_key.h). The last row takes any key: a program asks for parameters of
-// the machine by identifiers of its own.
+// The configuration keys of TECHNOL (see config_key.h). The last row matches any key, because programs query parameters
+// of the machine by their own identifiers.
 #include "rtlib/nc/config_key.h"
 
 namespace rung::nc {

@@ -47,7 +47,7 @@ constexpr DeviceService kServices[] = {
     {{Regulator6, "REGUL_6 set"}, Device::Axes},
     {{PositionInit, "POS_INIT axis space"}, Device::Axes},
     {{PositionReset, "POS_RESET axis"}, Device::Axes},
-    // Bits of the control record; not given: it stays (man. l.12101-12133).
+    // Bits of the control record; kNotGiven leaves it unchanged (man. l.12101-12133).
     {{PositionMode, "POS_MODE len accel axis -> control"}, Device::Axes, {.unanswered = {4}, .refused = {kNotGiven}}},
     // The two bytes of the record as a word; refused, bit ERR (man. l.12093).
     {{PositionControl, "POS_CONTROL feed mp axis -> status control"},

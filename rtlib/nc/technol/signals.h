@@ -1,6 +1,5 @@
-// Signals of the dialect technol.
-// The manual prints no addresses; every area is packed in table order, bits of one group and direction eight to a byte;
-// a bit whose container is printed lies in it (column layout).
+// Signals of the dialect technol. The manual prints no addresses; every area is packed in table order, with the bits of
+// one group and direction eight to a byte; a bit whose container is printed is inside it (column layout).
 //   "I"            cells that a program names; names of other areas are not names of a program
 //   "W"            weights: byteOffset and bit count from the cell they are applied to (CELL.WEIGHT)
 //   "BLK"          one element of the block queue, BLK[n]

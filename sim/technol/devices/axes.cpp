@@ -25,13 +25,13 @@ void Axes::powerUp() {
 }
 
 void Axes::fault() {
-  operatorStop_ = Stop::Emergency; // of references and SPI_AX: their drives are disabled
+  operatorStop_ = Stop::Emergency; // stops references and SPI_AX, because the drives are disabled
   spindles_.zeroOutputs();
   units_.brakeAll();
   manual_.lock(true);
 }
 
-// STOPPI by its edge; the others are taken and reset (l.6396-6413).
+// STOPPI acts by its edge; the other requests are taken and reset (l.6396-6413).
 Stop Axes::takeStop(const AxisInputs& in, AxisRequests& requests) {
   const bool edge = in.stopPi && !stopPiWas_;
   stopPiWas_ = in.stopPi;
@@ -42,7 +42,7 @@ Stop Axes::takeStop(const AxisInputs& in, AxisRequests& requests) {
   return stop;
 }
 
-// 1/min
+// The speed of the main spindle in 1/min.
 double Axes::mainRevolutions() const {
   const uint32_t main = spindles_.main();
   return main == 0 ? 0 : std::fabs(speedPerMinute(main)) / kDegreesPerTurn;
@@ -89,7 +89,7 @@ void Axes::show(AxisOutputs& out) const {
 
 namespace {
 
-// "" or what is wrong with the letters of axes.
+// The error in the letters of axes, or "".
 std::string problemOf(std::string_view letters) {
   if (letters.empty() || letters.size() > kMaxAxes) return "'axes' needs 1 to 16 letters";
   for (size_t i = 0; i < letters.size(); ++i) {
@@ -144,7 +144,7 @@ std::string Axes::addSwitch(uint64_t bit, std::string_view value) {
   return {};
 }
 
-// A rotary axis passes its switch in each revolution: of its equal places it is the first one from `low` on.
+// A rotary axis passes its switch in each revolution: of its equivalent positions the first one from `low` on counts.
 bool Axes::isClosed(const Switch& contact) const {
   const Axis& axis = axes_[contact.axis - 1];
   const double place = axis.physical();
@@ -152,7 +152,7 @@ bool Axes::isClosed(const Switch& contact) const {
   return place + kDegreesPerTurn * std::ceil((contact.low - place) / kDegreesPerTurn) <= contact.high;
 }
 
-// Instructions of the program and what the operator does.
+// Instructions of the program and actions of the operator.
 
 namespace {
 
@@ -187,7 +187,7 @@ AnalogOutput Axes::analogOnSpindle(int64_t value, int64_t axis, int64_t spi) {
     complaints_.add({"ANALOG", "spi", spi, {}});
     return {};
   }
-  // A role says which axis, whatever the operand says (l.8130).
+  // A role determines the axis, whatever the operand (l.8130).
   if (!(spi == 0 ? usable("ANALOG", axis) : inRange("ANALOG", axis))) return {};
   return spindles_.putOnSpindle(value, static_cast<uint32_t>(axis), static_cast<uint32_t>(spi));
 }

@@ -7,7 +7,7 @@ namespace rung::sim::technol {
 
 namespace {
 
-constexpr double kNear = 1e-9; // a pulse under the axis is not ahead of it
+constexpr double kNear = 1e-9; // a pulse at the position of the axis is not ahead of it
 
 } // namespace
 

@@ -36,7 +36,7 @@ void SimulatedCanBus::tick() {
   for (SimulatedUnit& unit : units_) unit.tick(answers_);
 }
 
-// SYNC and network management are for all nodes.
+// SYNC and network management go to all nodes.
 void SimulatedCanBus::distribute(const CanPacket& packet) {
   const uint8_t node = packet.node();
   if (node == 0)
@@ -74,7 +74,7 @@ namespace {
 
 using host::inQuotes;
 
-// "DRIVE.2.SDO.0X2003.1": the drive's number, and what follows SDO is left of the name.
+// Takes the drive's number from "DRIVE.2.SDO.0X2003.1", and leaves the part after SDO in `name`.
 std::optional<uint32_t> takeDriveOfObject(std::string_view& name) {
   if (!nc::technol::takePrefix(name, "DRIVE.")) return std::nullopt;
   const auto drive = numberBetween(takeUntil(name, '.'), 0, UINT32_MAX);
@@ -105,7 +105,7 @@ void CanDevices::setDrives(uint32_t count) {
   while (drives.size() < count) drives.emplace_back(static_cast<uint32_t>(drives.size() + 1));
 }
 
-// The value is VALUE/BYTES, and `ro` or `wo` after it.
+// The value is VALUE/BYTES, optionally followed by `ro` or `wo`.
 std::optional<std::string> CanDevices::configureObject(std::string_view key, std::string_view value) {
   const std::string name = nc::technol::canonical(key);
   std::string_view rest = name;
@@ -157,7 +157,7 @@ void CanDevices::power() {
   prepareUnits();
 }
 
-// Each answers, so that its objects take some milliseconds: far fewer than these.
+// Prepares the units, each of which answers after some milliseconds, far fewer than kMostMs.
 void CanDevices::prepareUnits() {
   constexpr uint32_t kMostMs = 100;
   SimulatedCanBus& bus = buses_[kUnitChannel - 1];

@@ -13,7 +13,7 @@ constexpr uint32_t kDeviceType = 0x00030191; // inputs and outputs of CiA 401
 constexpr uint32_t kMaker = 1;
 constexpr std::string_view kNames[kUnitGroups] = {"INOUT08", "KLA50", "TOC"};
 constexpr uint16_t kPotentiometer = 0x6404;
-constexpr uint8_t kEverySync = 1, kMostSyncs = 240, kAtRequest = 252; // types of transmission (l.4699-4703)
+constexpr uint8_t kEverySync = 1, kMostSyncs = 240, kAtRequest = 252; // transmission types (l.4699-4703)
 constexpr uint8_t kLastOfDisplay = 19;
 constexpr PdoFields kDefaultOutputs = {{{kWriteOutput, 1},
                                         {kWriteOutput, 2},
@@ -48,7 +48,7 @@ constexpr Fields kFields[] = {{kRpdoMapping, kUnusedField, 0, 0},
                               {kTpdoMapping, kEncoderCounter, 1, 3},
                               {kTpdoMapping, kWheelKeys, 1, 2}};
 
-// Only fields of eight bits (l.4705-4709).
+// Only fields of eight bits can be mapped (l.4705-4709).
 bool isMappable(uint16_t pdo, uint32_t mapping) {
   const sdo::Object field = fieldOf(mapping);
   return mapping == mappingOf(field) && std::any_of(std::begin(kFields), std::end(kFields), [&](const Fields& known) {
@@ -150,7 +150,7 @@ void SimulatedUnit::receive(const CanPacket& packet, NodePackets& answers) {
   }
 }
 
-// Bytes of RPDO1 go where they are mapped; a display that is not mapped shows nothing.
+// Stores the bytes of RPDO1 in their mapped objects; a display that is not mapped shows nothing.
 void SimulatedUnit::takeOver() {
   for (uint32_t i = 0; i < kPdoFields; ++i) {
     const sdo::Object field = rpdo_[i];
@@ -195,7 +195,7 @@ void SimulatedUnit::refresh() {
   for (uint8_t i = 0; i < 8; ++i) objects_.set({kPotentiometer, static_cast<uint8_t>(i + 1)}, wires_.analogue[i]);
 }
 
-// The name is longer than four bytes: its length comes first, then it comes in one segment.
+// The name is longer than four bytes, so its length is sent first, then the name in one segment.
 void SimulatedUnit::answer(const CanPacket& request, NodePackets& answers) {
   const std::string_view name = kNames[group_ - 1];
   if ((sdo::command(request) & 0xEF) == sdo::kReadSegment) {
@@ -220,7 +220,7 @@ void SimulatedUnit::answer(const CanPacket& request, NodePackets& answers) {
   if (written != nullptr) takeWritten(*written);
 }
 
-// 0: none by what the value means.
+// Why a value is refused, as an SDO abort code; 0: it is accepted.
 uint32_t SimulatedUnit::refusal(const CanPacket& request) const {
   if (!sdo::isWrite(request)) return 0;
   const sdo::Object place = sdo::object(request);
@@ -314,7 +314,7 @@ struct Mask {
 constexpr Mask kMasks[] = {{0x01, 0x0200}, {0x02, 0x0400}, {0x04, 0x0800},
                            {0x08, 0x1000}, {0x20, 0x4000}, {0x40, 0x8000}};
 
-// Bits whose mask is 0 stay what they are in the drive.
+// Bits whose mask is 0 keep their value in the drive.
 uint16_t masked(uint16_t old, uint16_t word) {
   for (const Mask& mask : kMasks)
     if ((word & mask.mask) == 0) word = static_cast<uint16_t>((word & ~mask.bit) | (old & mask.bit));
@@ -373,7 +373,7 @@ void SimulatedDrive::control(uint16_t word, NodePackets& answers) {
   follow(word);
 }
 
-// A step at a time, downwards at once (CiA 402; a quick stop ends where the voltage is off).
+// Changes the state one step at a time, downwards at once (CiA 402; a quick stop ends when the voltage is off).
 void SimulatedDrive::follow(uint16_t word) {
   if (state_ == State::Fault) return;
   const bool on = (word & kSwitchOn) != 0, enable = on && (word & kEnable) != 0;
@@ -439,7 +439,7 @@ void SimulatedDrive::refresh() {
   objects_.set(kStatusObject, status());
 }
 
-// Bit 7 of the control word resets a fault whose cause is gone; the control's own word then takes the bit back.
+// Bit 7 of the control word resets a fault whose cause is gone; the next word of the control clears the bit.
 void SimulatedDrive::answer(const CanPacket& request, NodePackets& answers) {
   const CanObject* written = nullptr;
   answers.push(objects_.answer(node_, request, written));

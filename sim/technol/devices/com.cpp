@@ -14,8 +14,8 @@ void ComLine::powerOn() {
   sentFirst_ = sentCount_ = 0;
 }
 
-// ComSpeed bits a second are so many thousandths of a bit a millisecond. A byte begins when it is in the queue and the
-// one before has left; it has left with its last stop bit.
+// ComSpeed, in bits per second, is the progress in thousandths of a bit per millisecond. A byte begins when it is in
+// the queue and the previous one has been sent; it has been sent with its last stop bit.
 void ComLine::tick() {
   if (!port_.settings().isActive || port_.hasError()) return;
   const uint64_t byte = uint64_t{1000} * port_.settings().bitsOfByte();

@@ -13,12 +13,12 @@ using Kind = EthercatRequest::Kind;
 
 namespace {
 
-// A request without an answer: it waits, then it has failed.
+// The result of a request without an answer: nothing while it waits, then kTimedOut.
 std::optional<uint32_t> timeOut(const EthercatRequest& request) {
   return request.ageMs < EtherCat::kTimeoutMs ? std::nullopt : std::optional<uint32_t>(kTimedOut);
 }
 
-// Answered by serveChange, when its turn has come.
+// Whether the request changes a state; serveChange answers it in its turn.
 bool isChange(const EthercatRequest& request) {
   return request.kind == Kind::Command && stateOf(request.index) != State::Unknown;
 }
@@ -105,7 +105,7 @@ void EtherCat::startLater() {
   if (startInMs_ == 0 && states_.hasLink()) states_.start(State::Operational);
 }
 
-// Changes of state come one after the other, in the order in which they were asked for.
+// State changes are executed one after the other, in the order of their requests.
 EthercatRequest* EtherCat::changeUnderWay() {
   for (uint32_t i = 0; i < requests_.count(); ++i) {
     EthercatRequest& request = requests_[i];
@@ -123,7 +123,7 @@ void EtherCat::serveChange() {
   if (request->ticket != commandTicket_) {
     commandTicket_ = request->ticket;
     states_.begin(stateOf(request->index), ofSlave ? std::optional(request->station.slave) : std::nullopt);
-    if (!ofSlave) startInMs_ = 0; // the program has decided otherwise
+    if (!ofSlave) startInMs_ = 0; // a request of the program replaces the automatic start
   }
   if (const auto code = states_.tick()) requests_.finish(*request, *code);
 }
@@ -139,7 +139,7 @@ void EtherCat::serveAnswers() {
   }
 }
 
-// Nothing: not yet.
+// The result of a request; nothing: there is none yet.
 std::optional<uint32_t> EtherCat::answerOf(EthercatRequest& request) {
   if (!exists() || request.station.master != 0) return kNoMaster;
   const bool isCommand = request.kind == Kind::Command;
@@ -243,7 +243,7 @@ using namespace io::ethercat;
 
 constexpr std::string_view kPrefix = "ethercat.";
 
-// The text up to `end`, which loses it and the `end`; all of it where it has none.
+// Takes the text up to `end`, and `end` itself, from the text; all of it if it does not contain `end`.
 std::string_view takeUpTo(std::string_view& text, char end) {
   const std::string_view taken = text.substr(0, text.find(end));
   text.remove_prefix(std::min(text.size(), taken.size() + 1));
@@ -256,8 +256,8 @@ std::string setFlag(bool& flag, std::string_view value) {
   return {};
 }
 
-// "-100" or "0x64", as an object of so many bytes holds it. Below 0 it makes the value signed, and a limit that is not
-// given the last one with a sign.
+// Parses a limit, "-100" or "0x64", in the width of the object. A negative limit makes the value signed, and a missing
+// limit becomes that of the signed type.
 std::string setLimit(EthercatObject& object, std::string_view text, uint64_t& limit) {
   EthercatObject limited;
   if (std::string wrong = parseObjectValue(std::string(text) + "/" + std::to_string(object.bytes), limited);
@@ -272,7 +272,7 @@ std::string setLimit(EthercatObject& object, std::string_view text, uint64_t& li
   return {};
 }
 
-// "ro", "wo", "min=0", "max=100" after the value.
+// Takes an option after the value: "ro", "wo", "min=0", "max=100".
 std::string setOption(EthercatObject& object, std::string_view option) {
   if (option == "ro") return object.mayWrite = false, "";
   if (option == "wo" && !object.isIdn) return object.mayRead = false, "";
@@ -348,7 +348,7 @@ std::string EtherCat::setName(uint32_t slave, std::string_view name) {
   return {};
 }
 
-// INIT, where all begin, is refused by none.
+// Sets the state that a slave refuses; not INIT, in which all begin.
 std::string EtherCat::setRefused(uint32_t slave, std::string_view value) {
   const auto number = text::wholeIn<uint32_t>(value);
   const State state = number && *number <= 8 ? stateOf(*number) : State::Unknown;

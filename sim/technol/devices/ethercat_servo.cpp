@@ -14,9 +14,9 @@ namespace {
 
 struct Request {
   bool ServoCells::* bit;
-  ServoState state; // when it is carried out
+  ServoState state; // the state after execution
 };
-// Those that stop a drive come first, so that one that cannot be carried out does not keep a drive on.
+// Requests that stop a drive come first, so that a request that cannot be executed does not keep a drive on.
 constexpr Request kRequests[] = {{&ServoCells::done, ServoState::Done},
                                  {&ServoCells::disable, ServoState::On},
                                  {&ServoCells::init, ServoState::Init},
@@ -29,7 +29,7 @@ const Request* requested(const ServoCells& cells) {
   return nullptr;
 }
 
-// The control word by which the request gets on from that status. To disable is to take ENABLE away (l.10366): a drive
+// The control word for the next step of the request from that status. Disabling clears ENABLE (l.10366), so a drive
 // that is not switched on stays so.
 uint16_t controlFor(const Request& request, uint16_t status, uint16_t control) {
   if (request.bit == &ServoCells::enable) return kControlEnable;
@@ -47,7 +47,7 @@ bool isCarriedOut(const Request& request, uint16_t status) {
   return request.bit == &ServoCells::done ? !isOn : status == kSwitchedOn;
 }
 
-// Positions are INT32 that wrap (l.10337); so they are counted as unsigned.
+// Positions are INT32 that wrap (l.10337), so they are computed as unsigned.
 uint32_t incrementsAt(const ServoCells& cells) {
   return static_cast<uint32_t>(std::llround(cells.place * 1000 * cells.incrementsPerUm));
 }
@@ -69,13 +69,13 @@ void EthercatServo::serve(ServoCells& cells) {
   if (request->bit != &ServoCells::disable || status == kSwitchedOn) cells.state = request->state;
 }
 
-// A drive takes the rise: while the fault lasts, every other scan.
+// A drive needs a rising edge, so it gets one in every other scan while the fault lasts.
 void EthercatServo::eraseFault(ServoCells& cells) {
   cells.erase = cells.erase && cells.isFaulty;
   pulse_ = cells.erase && !pulse_;
 }
 
-// Its motor has an absolute encoder, and goes where it was asked to in the scan before.
+// The motor has an absolute encoder, and moves to the position requested in the last scan.
 void EthercatServo::simulate(ServoCells& cells) {
   own_.step(cells.control);
   if (!isPlaced_) ownPosition_ = static_cast<int32_t>(incrementsAt(cells));
@@ -86,8 +86,8 @@ void EthercatServo::simulate(ServoCells& cells) {
   cells.position = ownPosition_;
 }
 
-// A drive that is not enabled is asked to stay where it is, so that it does not jump when it is. The velocity is that
-// of the last scan as a whole: a drive that keeps it for a scan has gone as far as was asked.
+// A drive that is not enabled is requested to stay at its position, so that it does not jump when it is enabled. The
+// velocity is the mean of the last scan: a drive that keeps it for a scan moves by the requested distance.
 void EthercatServo::follow(ServoCells& cells) {
   constexpr double kScansPerSecond = 50;
   const uint32_t place = incrementsAt(cells);

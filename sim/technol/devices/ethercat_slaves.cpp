@@ -12,7 +12,7 @@ namespace {
 
 using namespace io::ethercat;
 
-// Of a value with the sign that its limits have.
+// Whether a < b, signed if the object's limits are.
 bool isBelow(const EthercatObject& idn, uint64_t a, uint64_t b) {
   if (!idn.isSigned) return a < b;
   const uint32_t shift = 64 - 8 * idn.bytes;
@@ -189,7 +189,7 @@ namespace {
 
 using namespace io::ethercat;
 
-// The state that one step leads to. Nothing: there is no such change.
+// The state after one step towards `target`; nothing if there is no such change.
 std::optional<State> nextState(State from, State target) {
   if (from == target) return from;
   if (target == State::Bootstrap) return from == State::Init ? std::optional(target) : std::nullopt;
@@ -230,7 +230,7 @@ EthercatStates::Step EthercatStates::stepOf(EthercatSlave& slave, State goal) {
   return {.isDone = slave.state == goal};
 }
 
-// Slaves that go along are in the goal also where another refuses it: by their states it can be found.
+// Slaves that accept the goal stay in it even if another slave refuses, which can be found by its state.
 EthercatStates::Step EthercatStates::allTo(State goal) {
   Step all;
   for (uint32_t i = 0; i < slaves_.count(); ++i) {
@@ -285,7 +285,7 @@ bool EthercatStates::takesOutputs(uint32_t slave) const {
 
 namespace {
 
-// The one way to write it. In keys of the configuration a blank is written `_`.
+// The canonical form of a name. In configuration keys a blank is written `_`.
 std::string nameOf(std::string_view text) {
   std::string name = nc::technol::canonical(text);
   std::ranges::replace(name, '_', ' ');
@@ -304,7 +304,7 @@ void EthercatImage::add(uint32_t slave, bool isInput, std::string_view name, uin
   entries_.push_back(std::move(made));
 }
 
-// Names may contain dots; so whole identifiers are compared.
+// Names may contain dots, so whole identifiers are compared.
 uint32_t EthercatImage::find(std::string_view identifier) const {
   const std::string wanted = nameOf(identifier);
   for (uint32_t i = 0; i < count(); ++i) {
@@ -344,7 +344,8 @@ void EthercatImage::powerOn() {
   }
 }
 
-// An output that was never written leaves its object as the mailbox or the configuration has set it.
+// An output that was never written does not change its object, which keeps the value of the mailbox or the
+// configuration.
 void EthercatImage::putOutputs() {
   for (uint32_t i = 0; i < count(); ++i)
     if (entries_[i].isWritten && isExchanged(i)) slaves_.objectAt(entries_[i].object).value = entries_[i].value;

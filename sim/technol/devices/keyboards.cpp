@@ -11,7 +11,7 @@ namespace {
 
 constexpr uint8_t kOn = 0xFF;
 
-// A digit below `end` at the beginning of the text, which loses it.
+// Takes a digit below `end` from the beginning of the text.
 std::optional<uint32_t> takeDigit(std::string_view& text, uint32_t end) {
   if (text.empty() || text[0] < '0' || text[0] >= static_cast<char>('0' + end)) return std::nullopt;
   const auto digit = static_cast<uint32_t>(text[0] - '0');
@@ -58,7 +58,7 @@ void Keyboards::power() {
   }
 }
 
-// A key without functions of its own does the same in each (man. l.16863-16872).
+// A key without separate functions does the same in each function (man. l.16863-16872).
 uint16_t Keyboards::find(const Board& board, uint32_t scan) {
   for (size_t i = 0; i < board.keys.size(); ++i) {
     const host::KeyDefinition& key = board.keys[i];
@@ -82,8 +82,8 @@ KeyActions Keyboards::key(uint32_t keyboard, uint32_t scan, bool pressed) {
           isFunction ? std::string_view() : definition.rtmCommand};
 }
 
-// RTMID_KEYBx_FUNCTIONy: while the key is held; _TOGGLE: its state changes, the highest one that is on counts; _SWITCH:
-// that function alone (man. l.16872-16935). The manual's names have blanks where these have underscores.
+// RTMID_KEYBx_FUNCTIONy: on while the key is held; _TOGGLE: changes its state, and the highest function that is on
+// counts; _SWITCH: only that function (man. l.16872-16935). The manual's names have blanks instead of underscores.
 bool Keyboards::switchFunction(std::string_view command, bool pressed) {
   using nc::technol::takePrefix;
   if (!takePrefix(command, "RTMID_KEYB")) return false;
@@ -144,7 +144,7 @@ void HandwheelDisplay::show(std::span<const uint8_t, 8> order) {
     if (order[2 + i] != kStays) put(order[0], order[1] + i * widthOf(size), {order[2 + i], size, order[7] != 0});
 }
 
-// Characters that it overlaps are gone.
+// Deletes characters that it overlaps.
 void HandwheelDisplay::put(uint32_t row, uint32_t column, const Cell& cell) {
   const uint32_t bottom = row + heightOf(cell.size), right = column + widthOf(cell.size);
   if (bottom > kRows || right > kColumns) return;

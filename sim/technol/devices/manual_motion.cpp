@@ -20,7 +20,7 @@ AxisMask enabledFor(const Axis& axis, const AxisInputs& in) {
   return axis.attributes.manEnable == 2 ? in.manualEnabled : in.enabled; // l.10861-10869
 }
 bool mayTake(const Axis& axis) { return !axis.spindle && (axis.mover == Mover::None || axis.mover == Mover::Manual); }
-// MPxPI and limits brake harder than an order that ends (l.6428).
+// MPxPI and limits brake harder than the end of a command (l.6428).
 void brake(Axis& axis) { axis.motion.stop(axis.attributes.accelerationEmergency); }
 
 } // namespace
@@ -40,7 +40,7 @@ void ManualMotion::drop(Axis& axis, uint32_t index) {
 void ManualMotion::activate(const AxisInputs& in, AxisRequests& requests) {
   if (requests.autmanSelect) on_ = true;
   if (requests.autmanCancel) on_ = false;
-  requests.autmanSelect = requests.autmanCancel = false; // granted or not (l.11022-11030)
+  requests.autmanSelect = requests.autmanCancel = false; // whether granted or not (l.11022-11030)
   if (const auto wanted = panel.takeManual()) on_ = *wanted;
   on_ = on_ && in.autmanAllowed && !locked_;
   active_ = in.autmanAllowed && !locked_ && (in.autmanReq || on_);
@@ -58,7 +58,7 @@ ManualMotion::Ordered ManualMotion::orders(const AxisInputs& in) {
           .rapid = in.externalRapid || (!external_ && panel.rapid())};
 }
 
-// mm/min (l.10966-11009).
+// The speed in mm/min (l.10966-11009).
 double ManualMotion::speed(const Axis& axis, const AxisInputs& in, double revolutions) const {
   const AxisAttributes& own = axis.attributes;
   double feed = in.externalFeed ? in.feed : own.feed;
@@ -97,7 +97,7 @@ void ManualMotion::driveWheel(Axis& axis, uint32_t index, const AxisInputs& in) 
     brake(axis);
 }
 
-// Steps in mm, of the preselected axis.
+// Moves the preselected axis by `steps` mm.
 void ManualMotion::turnWheel(std::span<const Axis> axes, double steps) {
   const uint32_t number = panel.selected();
   if (!active_ || steps == 0 || number == 0 || number > axes.size() || !mayTake(axes[number - 1])) return;
@@ -120,7 +120,7 @@ void ManualMotion::drive(std::span<Axis> axes, const AxisInputs& in, AxisRequest
     if (mayTake(axes[i])) driveAxis(axes[i], i, in, speed(axes[i], in, revolutions));
 }
 
-// INPOS_STOP (l.10871): whether all axes are where they were before manual motion inside a block.
+// INPOS_STOP (l.10871): whether all axes have their positions from before the manual motion inside a block.
 void ManualMotion::watchStop(std::span<const Axis> axes, const AxisInputs& in) {
   const bool moves = ordered_.plus != 0 || ordered_.minus != 0 || wheels_ != 0;
   const auto back = [&](uint32_t i) {
@@ -139,13 +139,13 @@ void ManualMotion::watchStop(std::span<const Axis> axes, const AxisInputs& in) {
 
 // l.11057-11127
 void ManualMotion::driveShift(std::span<Axis> axes, const AxisInputs& in, const AxisRequests& requests, double steps) {
-  if (shiftWasActive_ && !shiftActive_) panel.select(0, false); // the last choice of an axis goes with it
+  if (shiftWasActive_ && !shiftActive_) panel.select(0, false); // the selection of an axis ends with it
   shiftWasActive_ = shiftActive_;
   const uint32_t selected = panel.selected();
   const bool may = shiftActive_ && selected != 0 && selected <= kShiftAxes && has(in.shiftEnable, selected - 1);
   shifting_ = may ? bitOf(selected - 1) : AxisMask{0};
   if (may) shifts_[selected - 1] += steps;
-  if (!requests.shiftSelected) shifts_ = {}; // it returns to where the path is
+  if (!requests.shiftSelected) shifts_ = {}; // the axes return to the path
   for (uint32_t i = 0; i < axes.size(); ++i)
     axes[i].shift.moveTo(shifts_[i], axes[i].attributes.feedRT / 60, axes[i].attributes.acceleration);
 }
@@ -266,7 +266,7 @@ AxisMask ManualPanel::minus() const { return static_cast<AxisMask>(minus_ | (mov
 
 void ManualPanel::settle(const AxisInputs& in, AxisRequests& requests) {
   const auto first = [](AxisMask axes) { return axes == 0 ? 0 : static_cast<uint32_t>(std::countr_zero(axes)) + 1; };
-  // A key of motion selects the axis for the handwheel as well, but for AUTMAN_WHEEL_DIS (l.11047).
+  // A motion key also selects the axis for the handwheel, except with AUTMAN_WHEEL_DIS (l.11047).
   if (moved_ != 0 && !in.noWheelSelect) select(first(moved_), false);
   if (choose_ != 0) {
     const bool again = in.selectToggles && selecting() && selected_ == first(choose_); // AUTMAN_KNOB_TOGGLE l.11050
@@ -322,7 +322,7 @@ constexpr Fixed kFixed[] = {
     {"MOVENEG_KNOB_STEP_DOWN", RtmKind::MoveOrStep, -1},
 };
 
-// 00 to 15.
+// Takes a number, 00 to 15.
 std::optional<AxisMask> takeNumber(std::string_view& text) {
   if (text.size() < 2) return std::nullopt;
   const auto number = text::numberIn<uint32_t>(text.substr(0, 2));
@@ -343,7 +343,7 @@ void addDirection(std::string_view& text, AxisMask axes, RtmCommand& command) {
   mask = static_cast<AxisMask>(mask | axes);
 }
 
-// What follows MOVE: 03NEGRT, X, XNEGY, NEGRT.
+// Parses the part after MOVE: 03NEGRT, X, XNEGY, NEGRT.
 std::optional<RtmCommand> move(std::string_view text, std::string_view letters, RtmCommand command) {
   if (const auto axes = takeNumber(text)) {
     addDirection(text, *axes, command);

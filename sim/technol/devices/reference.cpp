@@ -9,7 +9,7 @@ namespace rung::sim::technol {
 
 namespace {
 
-// Of axes that exist.
+// Calls act(i) for each existing axis of the mask.
 void forBits(AxisMask mask, size_t count, auto act) {
   for (uint32_t i = 0; i < count; ++i)
     if (has(mask, i)) act(i);
@@ -38,7 +38,7 @@ bool Reference::begin(Axis& axis, uint32_t index, AxisRequests& requests, Compla
   return true;
 }
 
-// The system does it, or asks the program to (l.11497, l.11775).
+// The system references the axis, or requests this from the program (l.11497, l.11775).
 void Reference::takeSingles(std::span<Axis> axes, AxisRequests& requests, Complaints& complaints) {
   AxisMask asked = 0;
   forBits(take(ReferenceKind::Single), axes.size(), [&](uint32_t i) {
@@ -155,7 +155,7 @@ void ReferenceTravel::zeroHere(Axis& axis, double value) {
   phase_ = Phase::Overrun;
 }
 
-// 9: KRRx reverses once, ZPRx slows, KRx lets zero pulses count.
+// Method 9: KRRx reverses once, ZPRx slows down, KRx enables zero pulses.
 void ReferenceTravel::observeZeroPulse(const AxisAttributes& own, uint32_t index, const AxisInputs& in) {
   const bool on = has(in.refSwitch, index);
   const bool edge = on && !switchWas_ && !fresh_;
@@ -168,7 +168,7 @@ void ReferenceTravel::observeZeroPulse(const AxisAttributes& own, uint32_t index
   low_ = low_ || armed_;
 }
 
-// 10, 12, 15: the switch reverses the travel, and the zero point is where it turns off again.
+// Methods 10, 12, 15: the switch reverses the travel, and the zero point is where it opens again.
 void ReferenceTravel::observeSwitch(Axis& axis, bool on) {
   if (phase_ == Phase::Seek && on) {
     phase_ = Phase::Leave;
@@ -186,7 +186,7 @@ void ReferenceTravel::observe(Axis& axis, uint32_t index, const AxisInputs& in) 
   const double sense = own.invertRefDirection != 0 ? -1 : 1;
   if (has(in.slowSwitch, index) && (own.slowDownSwitch != 0 || method == kWithoutReversal)) low_ = true;
   switch (method) {
-  case kCodedDistances: // two marks apart by their own distance: known after a pitch
+  case kCodedDistances: // the distance of two marks is unique: the position is known after a pitch
     if (std::fabs(axis.motion.position() - from_) < own.pitch()) return;
     return zeroHere(axis, own.machineNullPoint + axis.physical() - own.zeroPulseAt);
   case kFast: return observeZeroPulse(own, index, in);

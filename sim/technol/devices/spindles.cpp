@@ -18,7 +18,7 @@ uint32_t Spindles::role(const Axis& axis, uint32_t number) const {
 void Spindles::drive(Axis& axis, uint32_t number) const {
   if (!axis.spindle) return;
   axis.motion.run(output(number) * axis.attributes.speedAt10V / 60, axis.attributes.acceleration);
-  // One that was switched off and does not turn is an axis of the position loop again.
+  // A spindle that is switched off and at rest returns to the position loop as an axis.
   if (isOff(number) && axis.motion.isAtRest()) axis.spindle = false;
 }
 
@@ -58,7 +58,8 @@ void SpindlePositioning::end(Axis& axis, double acceleration) {
   axis.brake(acceleration);
 }
 
-// After KRx has been seen: from its edge on (RefSwitch 1), while it is there (2), or always (l.7858-7866, l.7905).
+// Whether zero pulses count: from the edge of KRx on (RefSwitch 1), while it is on (2), or always (l.7858-7866,
+// l.7905).
 bool SpindlePositioning::pulsesCount(const Axis& axis, uint32_t index, const AxisInputs& in) {
   const bool now = has(in.refSwitch, index);
   const bool edge = now && !switchWas_ && !fresh_;

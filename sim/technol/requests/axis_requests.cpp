@@ -15,7 +15,7 @@ using io::DeviceCall, io::ServiceKind;
 
 namespace {
 
-// The axes' side of analogue outputs and of positioning units.
+// The interface of the axes for analogue outputs and positioning units.
 class Target final : public io::AnalogTarget, public io::PositionTarget {
 public:
   explicit Target(Axes& axes) : axes_(axes) {}
@@ -68,7 +68,7 @@ struct Cell {
   Member Struct::* member;
 };
 
-// Bits of each axis.
+// Single bits, one for each axis.
 constexpr Cell<AxisInputs, AxisMask> kInputMasks[] = {
     {"MP#MAN", &AxisInputs::manualEnabled},   {"KR#", &AxisInputs::refSwitch},
     {"KRR#", &AxisInputs::reverseSwitch},     {"ZPR#", &AxisInputs::slowSwitch},
@@ -98,7 +98,7 @@ constexpr Cell<AxisRequests, bool> kRequestFlags[] = {{"HOMING_SINGLE", &AxisReq
                                                       {"AUTMAN_CANCEL", &AxisRequests::autmanCancel},
                                                       {"REQ_ESHIFT", &AxisRequests::shiftSelected},
                                                       {"ACT_ESHIFT", &AxisRequests::shiftActive}};
-// Words with a bit of each axis.
+// Words with a bit for each axis.
 constexpr Cell<AxisRequests, AxisMask> kRequestMasks[] = {{"HOMING", &AxisRequests::homing},
                                                           {"HOMING_REQ", &AxisRequests::homingReq},
                                                           {"HOMING_START_REQ", &AxisRequests::homingStartReq},
@@ -191,7 +191,7 @@ void AxisPlaces::zeroOutputs(const core::Memory& memory) const {
 
 namespace {
 
-// The servo's number follows.
+// Names are followed by the servo's number.
 struct Flag {
   const char* name;
   bool ServoCells::* member;

@@ -1,5 +1,5 @@
-// Names of what lies in the devices and not in the program's memory (see simulated_devices.h; inventory of the
-// services, 15.5, 15.6).
+// Names of data in devices, outside the program's memory (see simulated_devices.h; inventory of the services, 15.5,
+// 15.6).
 #include "sim/technol/requests/device_cells.h"
 
 #include <algorithm>
@@ -65,7 +65,7 @@ std::optional<TableCell> tableCell(std::string_view name) {
   return cell;
 }
 
-// KnobSelAx0, Pos6ShiftAx0 …: what panels show of the axes (l.10926-10937).
+// KnobSelAx0, Pos6ShiftAx0 …: data of the axes on panels (l.10926-10937).
 std::optional<NcCell> panelCell(const AxisOutputs& out, std::string_view name) {
   const bool shift = text::takePrefixIgnoringCase(name, "Pos6ShiftAx");
   if (!shift && !text::takePrefixIgnoringCase(name, "KnobSelAx")) return std::nullopt;
@@ -75,7 +75,7 @@ std::optional<NcCell> panelCell(const AxisOutputs& out, std::string_view name) {
   return NcCell{.width = 8, .bits = out.knobSelected[*axis]};
 }
 
-// What panels show of SHIFT and the handwheel: cells of the program (l.10940-10944), as the last scan has left them.
+// Data of SHIFT and the handwheel on panels: cells of the program (l.10940-10944) as of the last scan.
 std::optional<NcCell> shownCell(const AxisInputs& in, const AxisRequests& requests, std::string_view name) {
   if (text::equalsIgnoringCase(name, "ReqShift")) return NcCell{.width = 1, .bits = requests.shiftSelected ? 1u : 0u};
   if (text::equalsIgnoringCase(name, "ActShift")) return NcCell{.width = 1, .bits = requests.shiftActive ? 1u : 0u};
@@ -122,7 +122,7 @@ std::optional<NcCell> SimulatedDevices::readCell(std::string_view name) const {
   return readTable(name);
 }
 
-// Of modules: what devices give. Cells have the rest, and this where it is connected (module_cells.h).
+// Reads elements of modules that devices provide. Cells have the others, and connected ones (module_cells.h).
 std::optional<NcCell> SimulatedDevices::readModule(std::string_view name) const {
   const std::string identifier = nc::technol::canonical(nc::memoryText(name));
   const nc::technol::Reference reference = nc::technol::withoutBit(identifier);
@@ -132,7 +132,7 @@ std::optional<NcCell> SimulatedDevices::readModule(std::string_view name) const 
   return hasBit ? std::optional(NcCell{.width = 1, .bits = whole->bits >> *reference.bit & 1}) : std::nullopt;
 }
 
-// An input of the simulated net, or what axes and servos give.
+// Reads an input of the simulated net, or an element of axes and servos.
 std::optional<NcCell> SimulatedDevices::readElement(std::string_view identifier) const {
   if (const uint32_t entry = inputOfNet(identifier); entry != RUNG_NONE)
     return NcCell{.width = 8 * ethercat_.image().bytesOf(entry), .bits = ethercat_.image().read(entry)};
@@ -267,7 +267,7 @@ namespace {
 
 constexpr std::string_view kGroups[kUnitGroups] = {"INPUTOUTPUT_CAN2_", "PANEL_CAN2_", "KNOB_CAN2_"}; // canonical
 
-// The decimal digits at the beginning of the text, which loses them.
+// Takes decimal digits from the beginning of the text.
 std::optional<uint32_t> takeDecimal(std::string_view& text) {
   const size_t end = std::min(text.find_first_not_of("0123456789"), text.size());
   const auto number = nc::technol::decimal(text.substr(0, end));
@@ -277,12 +277,12 @@ std::optional<uint32_t> takeDecimal(std::string_view& text) {
 
 } // namespace
 
-// Canonical, after INOUT_. Where there is `wire`, the byte of the unit's physical side.
+// An element by its canonical name after INOUT_. `wire`: the byte is on the unit's physical side.
 struct UnitCell::Element {
   enum class Wire : uint8_t { None, Input, Key, Analogue, Encoder, Output };
 
   std::string_view name;
-  InoutsItem item; // of the first one
+  InoutsItem item; // of the first element
   uint32_t count = 1;
   bool hasBits = false; // also as NAME0[bit], NAME1[bit]
   Wire wire = Wire::None;

@@ -1,5 +1,4 @@
-// What a scenario does to the devices, and what it sees of them (see simulated_devices.h; inventory of the services,
-// 15).
+// Events and quantities of the devices in scenarios (see simulated_devices.h; inventory of the services, 15).
 #include "sim/technol/requests/device_events.h"
 
 #include <algorithm>
@@ -28,7 +27,7 @@ constexpr EventKey kManualKeys[] = {{"on"}};
 constexpr EventKey kCommandKeys[] = {required(textKey("command")), {"state"}};
 constexpr EventKey kHandwheelKeys[] = {required({"pulses", INT32_MIN, INT32_MAX}), {"wheel", 1, 2}};
 
-// "2.0x6041.0": the number before the point, which both go away; UINT32_MAX where there is none.
+// Takes the number and the dot from the beginning of "2.0x6041.0"; UINT32_MAX if there is no number.
 uint32_t takePart(std::string_view& rest) {
   return text::wholeIn<uint32_t>(io::takeUntil(rest, '.')).value_or(UINT32_MAX);
 }
@@ -70,7 +69,7 @@ std::string SimulatedDevices::commandEvent(const EventKeys& keys) {
   return axes_.rtm(keys.text("command"), keys.number<bool>("state").value_or(true));
 }
 
-// Both wheels move the axis that is selected, unless they are disabled.
+// Both wheels move the selected axis, unless they are disabled.
 std::string SimulatedDevices::handwheelEvent(const EventKeys& keys) {
   axes_.handwheel(*keys.number<int64_t>("pulses"), keys.number<uint32_t>("wheel").value_or(1));
   return {};
@@ -168,8 +167,8 @@ std::optional<std::string> SimulatedDevices::setQuantity(std::string_view name, 
   return std::string(done ? "" : "there is no such object");
 }
 
-// What a scenario does to the CAN bus, the serial ports and EtherCAT, and what has left them (see simulated_devices.h;
-// inventory of the services, 15.2 to 15.4).
+// Events of the CAN bus, the serial ports and EtherCAT in scenarios, and the data that they have sent (see
+// simulated_devices.h; inventory of the services, 15.2 to 15.4).
 
 namespace {
 
@@ -206,7 +205,7 @@ constexpr EventKey kSentBytesKeys[] = {textKey("text"), textKey("data")};
 constexpr const char* kBadHex = "data is pairs of hexadecimal digits, as \"02 55\"";
 constexpr const char* kBadText = "a text has \\r, \\n, \\t, \\\\ and \\x with two hexadecimal digits";
 
-// \r, \n, \t, \\ and \xNN.
+// The bytes of a text with the escapes \r, \n, \t, \\ and \xNN.
 std::optional<std::vector<uint8_t>> bytesOfText(std::string_view utf8) {
   const std::string text = nc::memoryText(utf8);
   std::vector<uint8_t> bytes;
@@ -230,7 +229,7 @@ std::optional<std::vector<uint8_t>> bytesOfText(std::string_view utf8) {
   return bytes;
 }
 
-// What `data` or `text` says; "" or what is wrong.
+// Reads the bytes of `data` or `text`. Returns "", or the error.
 std::string readBytes(const EventKeys& keys, std::vector<uint8_t>& bytes) {
   const bool isText = keys.has("text");
   if (isText == keys.has("data")) return isText ? "either text or data" : "text or data is missing";
@@ -240,7 +239,7 @@ std::string readBytes(const EventKeys& keys, std::vector<uint8_t>& bytes) {
   return {};
 }
 
-// `len` counts where there is less data, and without it: of a request for data (RTR).
+// `len` may exceed the data given; a request for data (RTR) has a length but no data.
 std::string readPacket(const EventKeys& keys, io::CanPacket& packet) {
   const auto bytes = bytesOfHex<std::vector<uint8_t>>(keys.text("data"));
   if (!bytes) return kBadHex;
@@ -259,7 +258,7 @@ std::string textOf(const io::CanPacket& packet) {
          text::hexOf(std::span(packet.data).first(packet.length)) + "\"";
 }
 
-// Keys that are not given do not count, nor does the data of a request for data.
+// Compares the given keys only, and not the data of a request for data.
 bool isAsWanted(const io::CanPacket& sent, const io::CanPacket& wanted, const EventKeys& keys) {
   const bool hasData = keys.has("data") && sent.remote == 0;
   const bool sameLength = sent.length == wanted.length;
@@ -338,7 +337,7 @@ std::span<const SimulatedDevices::Event> SimulatedDevices::portEvents() {
   return kEvents;
 }
 
-// ---- what has been sent --------------------------------------------------------------------------------------------
+// ---- sent data ------------------------------------------------------------------------------------------------------
 
 std::string SimulatedDevices::expectSent(std::string_view port, std::span<const NcArgument> keys) {
   std::string_view rest = port;
@@ -362,7 +361,7 @@ std::string SimulatedDevices::bytesSent(uint32_t number, const EventKeys& keys, 
   std::vector<uint8_t> wanted;
   if (std::string wrong = readBytes(keys, wanted); !wrong.empty()) return wrong;
   if (line.takeSent(wanted)) return {};
-  constexpr size_t kMore = 8; // bytes that are shown beyond those that are wanted
+  constexpr size_t kMore = 8; // bytes that are shown beyond the expected ones
   std::vector<uint8_t> found;
   for (uint32_t i = 0; i < line.sent() && i < wanted.size() + kMore; ++i) found.push_back(line.sentByte(i));
   return "sent is " + (found.empty() ? std::string("nothing") : text::hexOf(found));
@@ -378,7 +377,7 @@ std::string SimulatedDevices::packetSent(uint32_t channel, const EventKeys& keys
   return isAsWanted(sent, wanted, keys) ? std::string() : "the packet that was sent is " + textOf(sent);
 }
 
-// Keys that are pressed and released, by an event or by a bit that is connected to the virtual keyboard (see
+// Keys, which are pressed and released by an event or by a bit that is connected to the virtual keyboard (see
 // simulated_devices.h; man. ch. 11, l.12493-12503).
 
 namespace {
@@ -425,7 +424,7 @@ std::string namesOf(std::span<const EventKey> known) {
   return names;
 }
 
-// As a scenario would write it: identifiers and error codes in hexadecimal.
+// A number as written in scenarios: identifiers and error codes in hexadecimal.
 std::string shown(int64_t number) {
   constexpr int64_t kLastDecimal = 0xFF;
   if (number <= kLastDecimal) return std::to_string(number);

@@ -1,4 +1,4 @@
-// Devices at the cells of modules.
+// Connects devices with cells of modules.
 #include "sim/technol/requests/module_points.h"
 
 #include <algorithm>
@@ -19,9 +19,9 @@ using Kind = ModulePoint::Kind;
 
 namespace {
 
-// What has come to the elements of a servo, in the order of ServoPart.
+// The values received for the elements of a servo, in the order of ServoPart.
 struct ServoInputs {
-  uint32_t present = 0; // a bit each
+  uint32_t present = 0; // a bit for each element
   std::array<uint32_t, kServoInputs> values = {};
 
   bool has(ServoPart part) const { return (present & 1u << part) != 0; }
@@ -37,7 +37,7 @@ void takeServo(const ServoInputs& found, bool isConnected, ServoCells& servo) {
 
 void takeServos(const ModuleCells& cells, EthercatServos::Cells& servos) {
   std::array<ServoInputs, EthercatServos::kCount> found;
-  uint32_t controlled = 0; // a bit a servo
+  uint32_t controlled = 0; // a bit for each servo
   for (const ModuleCells::PointCell& at : cells.points()) {
     if (at.point.kind != Kind::Servo) continue;
     if (at.point.part == kServoControl) controlled |= 1u << at.point.number;
@@ -59,7 +59,7 @@ double positionAt(const ModulePoint& point, const AxisOutputs& axes) {
   return axes.position[point.number] + (point.part == kSpaceWithShift ? shift : 0);
 }
 
-// mm/min of the first three axes, which are the geometric ones.
+// The path speed in mm/min of the first three axes, which are the geometric ones.
 double pathSpeed(const AxisOutputs& axes, bool withShift) {
   const auto of = [&](uint32_t axis) { return axes.speed[axis] + (withShift ? axes.shiftSpeed[axis] : 0); };
   return std::hypot(of(0), of(1), of(2));
@@ -80,7 +80,7 @@ double incrementAt(const ModulePoint& point, const AxisOutputs& axes) {
   return 0;
 }
 
-// What a servo gives has the width of its cell; its measures are 32 bits.
+// The value of an element of a servo, in the width of its cell; measures have 32 bits.
 std::optional<uint64_t> servoGives(uint32_t part, const ServoCells& servo) {
   const auto word = [](int32_t value) { return uint64_t{static_cast<uint32_t>(value)}; };
   const auto um = [&](int32_t increments) { return word(servo.micrometres(increments)); };
@@ -147,7 +147,7 @@ namespace {
 
 constexpr bool isShared(const ModulePoint& point) { return point.kind == ModulePoint::Kind::Shared; }
 
-// SHIFT_ENABLE has a bit an axis, of the first eight (l.11120).
+// SHIFT_ENABLE has a bit for each of the first eight axes (l.11120).
 core::Place bitOfAxis(const rung_program& program, std::string_view cell, uint32_t axis) {
   const auto whole = nc::technol::signalPlace(program, cell);
   const auto bit = whole ? runtime::bitOf(*whole, axis) : std::nullopt;
@@ -217,7 +217,7 @@ namespace {
 
 struct NamedBit {
   std::string_view cell;
-  std::optional<uint32_t> number; // of a cell
+  std::optional<uint32_t> number; // bit number in a cell
 };
 NamedBit parts(std::string_view name) {
   const size_t dot = std::min(name.find('.'), name.size());

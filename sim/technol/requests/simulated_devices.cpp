@@ -1,4 +1,4 @@
-// Devices around a program (see simulated_devices.h).
+// The devices of a program (see simulated_devices.h).
 #include "sim/technol/requests/simulated_devices.h"
 
 #include <algorithm>
@@ -18,7 +18,8 @@ namespace {
 
 constexpr int64_t kUsPerTick = 1000;
 
-// Orders of packets are the control's own also where a scenario answers for all else (inventory of the services, 1.1).
+// Packet orders are handled by the control even if a scenario answers all other requests (inventory of the services,
+// 1.1).
 bool isPacketOrder(ServiceKind kind) {
   return kind == ServiceKind::CanOrder || kind == ServiceKind::CanDeleteOrder || kind == ServiceKind::CanEndOrder;
 }
@@ -75,7 +76,7 @@ void SimulatedDevices::restoreKept(std::span<const uint8_t> image) {
   tablesRestored_ = tables_.restoreKept(image);
 }
 
-// Tables are stored with each change, so that a warm start finds them as they were (inventory of the services, 15.5).
+// Tables are stored at each change, so a warm start finds them unchanged (inventory of the services, 15.5).
 void SimulatedDevices::powerOn(runtime::Instance& instance, nc::PowerOn kind, const ConstantOf& constantOf) {
   locate(instance);
   if (!tablesLoaded_ || (kind == nc::PowerOn::Cold && !tablesRestored_)) loadTables();
@@ -160,7 +161,7 @@ bool SimulatedDevices::respond(runtime::Instance& instance, const core::ServiceR
   return true;
 }
 
-// The instruction has no result that would say so.
+// Reports a wrong drive number, for which the instruction has no result.
 void SimulatedDevices::complainOfDrive(const DeviceCall& call) {
   const bool exists = call.arg(0) >= 1 && call.arg(0) <= io::kMostDrives;
   if (call.kind() == ServiceKind::CanDrive && !exists) complaints_.add({"CAN_AX_SEND", "axis", call.arg(0), ""});
@@ -198,7 +199,7 @@ void SimulatedDevices::blockStarted(runtime::Instance& instance) {
 void SimulatedDevices::beforeInput(runtime::Instance& instance, ModuleCells& cells) {
   if (!simulated_) return canCalls_.deliver(instance, canPlaces_);
   pass(instance, cells, static_cast<int64_t>(runtime::scanPeriodUs(instance.program())));
-  devicesUs_ = std::max(devicesUs_, instance.nowUs()); // scans may be left out on a real clock
+  devicesUs_ = std::max(devicesUs_, instance.nowUs()); // scans may be skipped on a real clock
 }
 
 void SimulatedDevices::idle(runtime::Instance& instance, ModuleCells& cells) {

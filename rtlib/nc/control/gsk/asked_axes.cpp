@@ -33,7 +33,7 @@ void GskAskedAxes::powerOn() {
   lost_ = 0;
 }
 
-// Who comes back finds the axes stopped, and gets the order to leave them so.
+// When the CNC returns, axes of unknown state are stopped by a request.
 void GskAskedAxes::step(const gsk::SignalsIo& io, core::ServiceQueue& services, bool served) {
   io_ = &io;
   services_ = &services;
@@ -88,7 +88,7 @@ GskAxisGroups::Progress GskAskedAxes::move(uint8_t axes, const GskAxisGroups::Co
   return progress;
 }
 
-// The host holds the axis by ESTP and ESOF themselves.
+// The host itself evaluates ESTP and ESOF to hold the axis.
 void GskAskedAxes::pause(uint8_t axes) {
   forAxes(axes, [&](uint32_t i) { axes_[i].paused = true; });
 }

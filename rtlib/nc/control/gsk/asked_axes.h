@@ -1,5 +1,5 @@
-// Axes of a GSK program that the host's CNC moves: a command of PLC axis control is a request of the control, which is
-// answered when the axis has carried it out.
+// Axes of a GSK program that the host's CNC moves: for each command of PLC axis control the control makes a request,
+// which is answered when the axis has executed it. Scan thread.
 #pragma once
 #include <array>
 
@@ -10,12 +10,13 @@ namespace rung::nc {
 
 class GskAskedAxes final : public GskAxisGroups::Mover {
 public:
-  // The program commands the axis by a group, from now on (parameter 7010); both count from 0. False: there is none.
+  // From now on the program commands the axis by a group (parameter 7010); both count from 0. False: there is no such
+  // axis or group.
   bool setGroup(uint32_t axis, uint32_t group);
   bool any() const { return served_ != 0; }
-  // Whatever the axes do is nothing that the program has ordered.
+  // At power-on: whatever the axes are doing, the program has not commanded it.
   void powerOn();
-  // A slot, before the program. `served`: a CNC carries out the commands.
+  // Runs before the program in every slot. `served`: a CNC carries out the commands.
   void step(const gsk::SignalsIo& io, core::ServiceQueue& services, bool served);
 
   std::optional<uint32_t> groupOf(uint32_t axis) const override { return axes_[axis].group; }
@@ -31,7 +32,7 @@ private:
     std::optional<uint32_t> group;
     uint32_t motion = 0, stop = 0; // tickets
     bool paused = false;
-    bool ordered = false; // and not over yet
+    bool ordered = false; // a command is not finished yet
   };
   bool order(uint8_t axes, const GskAxisGroups::Command& command);
   uint32_t ask(uint32_t axis, int64_t command, int64_t data1, int64_t data2);
@@ -41,10 +42,10 @@ private:
   std::array<Axis, GskAxisGroups::kAxes> axes_;
   uint8_t served_ = 0;  // groups that have an axis
   uint8_t given_ = 0;   // axes that have a group
-  uint8_t unknown_ = 0; // axes that may move from before the power-on, or while no CNC was there
-  uint8_t lost_ = 0;    // of these, those that the program had moved
+  uint8_t unknown_ = 0; // axes that may be moving since before the power-on or the absence of a CNC
+  uint8_t lost_ = 0;    // those of them that the program had moved
   bool isServed_ = true;
-  const gsk::SignalsIo* io_ = nullptr; // of the slot; so is the next
+  const gsk::SignalsIo* io_ = nullptr; // during a slot, as the next
   core::ServiceQueue* services_ = nullptr;
 };
 

@@ -33,7 +33,7 @@ void GskAxisGroups::step(const SignalsIo& io, Mover& mover, uint8_t served, bool
     const Step step{io, mover, groups_[g], axisGroups()[g]};
     if (step.control(kEclrBit) || emergencyStop) {
       clear(step);
-      step.group.ebsy = step.control(kEbufBit); // what comes now is lost (l.7891)
+      step.group.ebsy = step.control(kEbufBit); // blocks that arrive now are lost (l.7891)
     } else {
       take(step);
       execute(step);
@@ -43,7 +43,7 @@ void GskAxisGroups::step(const SignalsIo& io, Mover& mover, uint8_t served, bool
   writeCommon(io, mover);
 }
 
-// EAX may change only while *EAXSL is 0, and not under the CNC's own motion (l.7817).
+// EAX may change only while *EAXSL is 0, and not during a motion of the CNC (l.7817).
 void GskAxisGroups::assign(const SignalsIo& io, Mover& mover, uint8_t served) {
   const uint8_t wanted = io.gByte(kSelection);
   uint8_t held = 0;
@@ -67,7 +67,7 @@ void GskAxisGroups::assign(const SignalsIo& io, Mover& mover, uint8_t served) {
   }
 }
 
-// Stops, empties the buffers, takes strobe, code and alarm away (l.7883-7897, 8058).
+// Stops the axes, empties the buffers, and clears strobe, code and alarm (l.7883-7897, 8058).
 void GskAxisGroups::clear(const Step& step) {
   Group& group = step.group;
   const bool byProgram = step.control(kEclrBit);
@@ -76,7 +76,7 @@ void GskAxisGroups::clear(const Step& step) {
   step.io.setFByte(step.place.code, 0);
 }
 
-// A block is there while EBUF and EBSY differ (l.7695-7699).
+// A block is present while EBUF and EBSY differ (l.7695-7699).
 void GskAxisGroups::take(const Step& step) {
   Group& group = step.group;
   if (step.control(kEbufBit) == group.ebsy || group.axes == 0) return;
@@ -155,7 +155,7 @@ bool GskAxisGroups::isOver(const Step& step, const Command& command) {
   return progress == Progress::Over;
 }
 
-// As with M (l.7970): code, strobe, EFIN, strobe away, EFIN away, code away.
+// As for M (l.7970): code, strobe, EFIN, end of strobe, end of EFIN, end of code.
 bool GskAxisGroups::runAuxiliary(const Step& step, const Command& command) {
   Group& group = step.group;
   switch (group.aux) {
@@ -181,7 +181,7 @@ void GskAxisGroups::writeGroup(const Step& step) {
   const Motion motion = step.mover.look(group.axes);
   const bool atRest = group.axes != 0 && !motion.moving && !motion.unknown;
   const bool hasMotion = moves(group.executing) || moves(group.waiting) || moves(group.input);
-  group.alarm = group.alarm || motion.lost || (motion.unknown && hasMotion);    // none of them begins later by itself
+  group.alarm = group.alarm || motion.lost || (motion.unknown && hasMotion);    // no pending motion begins later
   const bool alarm = group.alarm || motion.overPositive || motion.overNegative; // l.8122
   step.io.setFByte(step.place.status,
                    static_cast<uint8_t>(group.ebsy << kEbsyBit | motion.overNegative << kEotnBit |

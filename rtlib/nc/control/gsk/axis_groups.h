@@ -1,6 +1,6 @@
-// PLC axis control (man. §9.2, l.7566-8289): the groups A-H take blocks from G by EBUF and EBSY, buffer them, carry
-// them out in their order and answer in F. Dwells and the handshake of auxiliary functions are done here; axes are
-// moved by the CNC beside the program, a simulated one or the host's.
+// PLC axis control (man. §9.2, l.7566-8289): the groups A-H take blocks from G by EBUF and EBSY, buffer them, execute
+// them in order and answer in F. Dwells and the handshake of auxiliary functions are handled here; axes are moved by a
+// Mover: the simulated CNC or that of the host.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -25,26 +25,26 @@ public:
   enum class Progress : uint8_t { UnderWay, Over, Failed };
   struct Motion {
     bool moving = false;
-    bool stopping = false; // by `stop`: nothing can begin
-    bool unknown = false;  // no report of what the axis does: it does not count as stopped
-    bool lost = false;     // it was under way then
+    bool stopping = false; // after `stop`: no motion can begin
+    bool unknown = false;  // its state is not known: it does not count as stopped
+    bool lost = false;     // it was moving when its state was lost
     bool overPositive = false, overNegative = false;
   };
 
-  // Moves axes; bit n-1 of a set is axis n.
+  // Moves axes. In a set of axes bit n-1 is axis n.
   class Mover {
   public:
     virtual ~Mover() = default;
-    // Parameter 7010: the group of an axis, from 0; nothing: it is never the program's.
+    // Parameter 7010: the group of an axis, from 0; nothing: the program never commands it.
     virtual std::optional<uint32_t> groupOf(uint32_t axis) const = 0;
     virtual bool movesForCnc(uint32_t axis) const { return (void)axis, false; }
     virtual void assigned(uint32_t axis, bool toProgram) { (void)axis, (void)toProgram; }
-    // Alarm 311: an axis has changed hands at the wrong time (l.7817).
+    // Alarm 311: an axis was assigned to the program or the CNC at the wrong time (l.7817).
     virtual void raiseAssignment() {}
 
-    // False: that is an alarm of the group.
+    // Begins a command. False: it raises an alarm of the group.
     virtual bool begin(uint8_t axes, const Command& command) = 0;
-    // Data of the command under way have changed.
+    // The data of the running command have changed.
     virtual void change(uint8_t axes, const Command& command) { (void)axes, (void)command; }
     virtual Progress move(uint8_t axes, const Command& command) = 0;
     virtual void pause(uint8_t axes) { (void)axes; }
@@ -53,12 +53,12 @@ public:
     virtual Motion look(uint8_t axes) const = 0;
   };
 
-  // A slot. Groups that are not `served` (bit n-1) are left alone, with their signals.
+  // Runs one slot. Groups that are not `served` (bit n-1) and their signals are left alone.
   void step(const gsk::SignalsIo& io, Mover& mover, uint8_t served, bool emergencyStop);
 
 private:
   enum class AuxPhase : uint8_t { None, Code, Strobe, EfinFalls };
-  // What runs and the two buffers before it (l.7675-7686).
+  // A group: the executing command and the two buffers before it (l.7675-7686).
   struct Group {
     std::optional<Command> executing, waiting, input;
     uint8_t axes = 0; // bit n-1
@@ -71,7 +71,7 @@ private:
     AuxPhase aux = AuxPhase::None;
     bool busy() const { return executing || waiting || input; }
   };
-  struct Step; // a group's part of a slot
+  struct Step; // the work of one group in a slot
 
   void assign(const gsk::SignalsIo& io, Mover& mover, uint8_t served);
   static void clear(const Step& step);

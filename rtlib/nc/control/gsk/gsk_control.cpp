@@ -48,18 +48,18 @@ struct GskPlaces final : Places {
   uint32_t messages;
   uint32_t messageBytes = 0;
   std::vector<gsk::MessageBytes> pieces;
-  std::vector<uint8_t> written; // by rungs, of their bytes
+  std::vector<uint8_t> written; // mask of the bits that rungs write, by byte of the pieces
 };
 
-// Messages of the program before that no rung can end any more.
+// Ends messages of the former program that no rung can end any more.
 void endOthers(uint8_t* block, const GskPlaces& places) noexcept {
   const uint8_t* written = places.written.data();
   for (const gsk::MessageBytes& piece : places.pieces)
     for (uint32_t i = 0; i < piece.size(); ++i) block[piece.offset + i] &= *written++;
 }
 
-// Calls see(number) for each message whose bit is 1, in their order, until it gives false. Nearly all bits are 0: eight
-// bytes of the block are looked at together.
+// Calls see(number) for each message whose bit is 1, in order, until it returns false. Nearly all bits are 0, so eight
+// bytes of the block are tested at once.
 template <class See>
 bool forShown(const uint8_t* block, std::span<const gsk::MessageBytes> pieces, See see) {
   constexpr uint32_t kWord = sizeof(uint64_t);
@@ -161,7 +161,7 @@ bool GskControl::shows(const runtime::Instance& instance, std::span<const ShownM
 
 namespace {
 
-// NC.MPOS.N, the machine position of axis N in 0.001 mm: a program has it where it reads positions (PSGNL, PSGN2).
+// NC.MPOS.N, the machine position of axis N in 0.001 mm; only in programs that read positions (PSGNL, PSGN2).
 std::optional<runtime::Ref> position(const rung_program& program, std::string_view number) {
   constexpr uint32_t kBytes = 4;
   const uint32_t space = runtime::findSpace(program, "@MPOS");

@@ -13,7 +13,7 @@ namespace rung::nc {
 
 namespace gsk {
 
-// Bytes of the A area that follow each other, and where they lie in the memory block.
+// Adjacent bytes of the A area, and their place in the memory block.
 struct MessageBytes {
   uint32_t first = 0, count = 0;
   uint32_t offset = 0;
@@ -27,7 +27,7 @@ struct MessageBytes {
 class GskControl final : public Control {
 public:
   static constexpr uint32_t kMostMessageBytes = 256; // of the A area
-  // X and F belong to the machine and the CNC: switching the PLC off and on does not change them (inventory §18).
+  // X and F belong to the machine and the CNC, so switching the PLC off and on does not change them (inventory §18).
   void prepare(runtime::Instance& instance, PowerOn kind) override;
   std::unique_ptr<Places> locate(const rung_program& program) const override;
   // Message number 8·byte + bit + 1 is shown while its A bit is 1 (P57).
@@ -37,7 +37,7 @@ public:
   // The second level is cut into slots of 8 ms.
   bool runsInSlots() const override { return true; }
   GskFunctions* functions(uint32_t channel) override { return channel == 0 ? &functions_ : nullptr; }
-  // Axes that no group was given for are left alone, with the signals of their groups.
+  // Axes without a group, and the signals of their groups, are left alone.
   bool setAxisGroup(uint32_t axis, uint32_t group) override { return axes_.setGroup(axis, group); }
   void setServed(bool served) override { served_ = served; }
   void beforeSlice(runtime::Instance& instance) override {
@@ -56,7 +56,7 @@ protected:
   std::optional<runtime::Ref> signal(const rung_program& program, std::string_view name) const override;
 
 private:
-  // The bytes of the A area are those of the last look: then none of its bits has changed.
+  // Whether the bytes of the A area are those of the last call of `see`, so that none of its bits has changed.
   bool isAsSeen(const uint8_t* block) const noexcept;
   void see(const uint8_t* block) noexcept;
 
@@ -66,9 +66,9 @@ private:
   std::optional<gsk::SignalsIo> io_; // of the program that runs now
   uint32_t messageArea_ = RUNG_NONE;
   uint32_t messageBytes_ = 0;
-  std::array<uint8_t, kMostMessageBytes> known_{};            // bits of the A area that the host knows of
-  std::span<const gsk::MessageBytes> messagePieces_;          // in the places
-  std::array<uint8_t, size_t{8} * kMostMessageBytes> seen_{}; // their bytes
+  std::array<uint8_t, kMostMessageBytes> known_{};            // bits of the A area as reported to the host
+  std::span<const gsk::MessageBytes> messagePieces_;          // owned by the Places
+  std::array<uint8_t, size_t{8} * kMostMessageBytes> seen_{}; // their bytes at the last `see`
   bool hasSeen_ = false;
 };
 

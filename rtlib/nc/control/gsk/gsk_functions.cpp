@@ -23,7 +23,7 @@ constexpr Signals kSignals[] = {
     {22, {7, 2}, {5, 2}}, // S, SF, SFIN
     {26, {7, 3}, {5, 3}}, // T, TF, TFIN
     {30, {7, 4}, {5, 7}}, // B, BF, SFIN2
-    {0, {8, 0}, {4, 3}},  // EF: always FIN, and FIN's fall (l.9450-9454)
+    {0, {8, 0}, {4, 3}},  // EF: always FIN, and its falling edge (l.9450-9454)
 };
 constexpr uint32_t kManyM = 3;
 constexpr uint32_t kExternal = static_cast<uint32_t>(GskFunctions::Line::External);
@@ -98,7 +98,7 @@ void GskFunctions::step(const gsk::SignalsIo& io) {
   }
 }
 
-// High-speed mode: the strobe changes its level.
+// In high-speed mode the strobe toggles.
 void GskFunctions::giveStrobe(const gsk::SignalsIo& io, uint32_t line) {
   const Bit strobe = kSignals[line].strobe;
   Running& one = running_[line];
@@ -127,7 +127,7 @@ void GskFunctions::abort(const gsk::SignalsIo& io) {
 std::optional<uint32_t> GskFunctions::start(FunctionKind kind, uint32_t code) {
   if (!io_) return std::nullopt;
   const Line line = lineOf(kind);
-  // A code of M that stayed beside a function of another kind gives way to the new one.
+  // The new function replaces an M code that stayed during a function of another kind.
   if (line == Line::M && running_[0].phase == Phase::Idle && highSpeed_) dropCodes(*io_);
   return start(*io_, line, code) ? std::optional(static_cast<uint32_t>(line)) : std::nullopt;
 }

@@ -1,10 +1,11 @@
 // The handshake of GSK's auxiliary functions M, S, T, B (man. §7, l.5732-6131): codes in one slot, strobes in the next,
-// then the answer of the PLC. That is FIN for all of them, which rises and falls; so functions that begin in one slot
-// end together, and others wait. In the high-speed mode every function has a completion signal that takes the level of
-// its strobe, and functions do not wait for others.
+// then the answer of the PLC. All share the answer FIN, which rises and falls, so functions that begin in one slot end
+// together, and others wait. In the high-speed mode every function has a completion signal of its own, which takes the
+// level of its strobe, and functions do not wait for others.
 //
-// The control takes the level of FIN (l.5755-5756): one that is 1 from earlier ends a function that the program has not
-// seen. In a machine an answer counts once it has been seen absent after the strobe.
+// The control evaluates the level of FIN (l.5755-5756): if it is still 1 from an earlier function, it ends a function
+// that the program has not seen. On a real machine an answer counts only after it has been seen absent since the
+// strobe.
 #pragma once
 #include <array>
 #include <optional>
@@ -23,19 +24,19 @@ public:
   enum class Answer : uint8_t { ByLevel, AfterAbsence };
   explicit GskFunctions(Answer counts = Answer::AfterAbsence) : counts_(counts) {}
 
-  // At power-on. F outlasts it, so what was handed over before is taken back.
+  // At power-on. F keeps its contents, so functions started before are aborted.
   void powerOn() {
     if (handedOver_ && io_) abort(*io_);
   }
   // The signals of the program that runs now.
   void use(const gsk::SignalsIo& io) { io_ = io; }
 
-  // Takes effect with functions handed over from now on.
+  // Takes effect for functions started from now on.
   void setHighSpeed(bool on) { highSpeed_ = on; }
-  // The code is in F from now on. False: it has to wait.
+  // Writes the code to F. False: the function has to wait.
   bool start(const gsk::SignalsIo& io, Line line, uint32_t code);
   void step(const gsk::SignalsIo& io);
-  // Strobes fall at once, codes of M go away (l.5257).
+  // Strobes fall at once, and M codes are cleared (l.5257).
   void abort(const gsk::SignalsIo& io);
   bool busy() const;
 
@@ -44,7 +45,7 @@ public:
     return true;
   }
   bool supports(FunctionKind kind, uint32_t) const override { return kind <= FunctionKind::B; }
-  // Before the first power-on nothing is taken.
+  // Nothing before the first power-on.
   std::optional<uint32_t> start(FunctionKind kind, uint32_t code) override;
   void step() override {
     if (io_) step(*io_);
@@ -58,8 +59,8 @@ private:
   enum class Phase : uint8_t { Idle, Code, Strobe, Release };
   struct Running {
     Phase phase = Phase::Idle;
-    bool fast = false;   // by the high-speed mode
-    bool absent = false; // the answer, since the strobe
+    bool fast = false;   // started in high-speed mode
+    bool absent = false; // the answer was 0 at some time since the strobe
   };
 
   void giveStrobe(const gsk::SignalsIo& io, uint32_t line);
@@ -69,7 +70,7 @@ private:
   std::array<Running, kLines> running_ = {}; // by Line
   std::optional<gsk::SignalsIo> io_;
   Answer counts_;
-  bool handedOver_ = false; // a function, since the object was made
+  bool handedOver_ = false; // a function was started since the object was made
   bool highSpeed_ = false;
 };
 

@@ -1,4 +1,4 @@
-// Where the areas of a GSK program lie (see signals_io.h).
+// The places of the areas of a GSK program (see signals_io.h).
 #include "rtlib/nc/control/gsk/signals_io.h"
 
 #include <span>

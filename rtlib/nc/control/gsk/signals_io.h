@@ -1,5 +1,5 @@
 // Access of the CNC to the areas of a GSK25i program: it reads X and G and writes F. An area that the program does not
-// have reads 0 and takes nothing. The instance and the areas outlive it.
+// have reads 0, and writing it does nothing. The instance and the areas outlive it.
 #pragma once
 #include <cstdint>
 #include <string_view>
@@ -10,12 +10,13 @@
 
 namespace rung::nc::gsk {
 
-// Where the bytes of an area lie in the memory block: in each slot the CNC reads and writes hundreds of them.
+// The places of an area's bytes in the memory block, looked up once because the CNC accesses hundreds of them in each
+// slot.
 class Area {
 public:
   Area(const rung_program& program, std::string_view name);
 
-  // What lies outside, in part or as a whole, reads 0, and writing it does nothing.
+  // Cells that are partly or completely outside read 0, and writing them does nothing.
   bool bit(const uint8_t* block, uint32_t byte, uint32_t bit) const noexcept {
     if (byte >= places_.size()) return false;
     const Place place = places_[byte];
@@ -27,7 +28,7 @@ public:
     uint8_t& cell = block[place.expanded ? place.offset + bit : place.offset];
     cell = place.expanded ? uint8_t{value} : static_cast<uint8_t>((cell & ~(1u << bit)) | uint32_t{value} << bit);
   }
-  // A number of up to four bytes, low byte first.
+  // A little-endian number of up to four bytes.
   template <class Number>
   Number read(const uint8_t* block, uint32_t byte) const noexcept {
     uint32_t value = 0;
@@ -45,7 +46,7 @@ public:
 private:
   struct Place {
     uint32_t offset = 0;   // in the block
-    bool expanded = false; // it has a byte for each bit there
+    bool expanded = false; // each of its bits has a byte
   };
 
   bool contains(uint32_t byte, uint32_t size) const noexcept {
@@ -61,7 +62,7 @@ private:
       block[place.offset] = value;
   }
 
-  std::vector<Place> places_; // a byte each; none: the program does not have the area
+  std::vector<Place> places_; // by byte; empty: the program does not have the area
 };
 
 struct Areas {

@@ -14,7 +14,7 @@ uint32_t codeOf(const rung_message& message) {
   return messageCode(message.number, static_cast<uint32_t>(message.channel), static_cast<uint32_t>(message.index));
 }
 
-// Room for a text with its numbers.
+// The maximum length of a text with its numbers.
 size_t roomFor(std::string_view text) {
   constexpr size_t kNumber = 340; // the longest one
   return text.size() + kNumber * static_cast<size_t>(std::ranges::count(text, '{'));
@@ -39,7 +39,7 @@ size_t logLine(const rung_program& program, const rung_message& message, std::sp
 
 namespace {
 
-// The contents go to where there is more room.
+// Keeps the contents in the vector with more capacity.
 template <class Entry>
 void widen(std::vector<Entry>& used, std::vector<Entry>& other) noexcept {
   if (used.capacity() >= other.capacity()) return;
@@ -50,7 +50,7 @@ void widen(std::vector<Entry>& used, std::vector<Entry>& other) noexcept {
 } // namespace
 
 Messages::Places::Places(const rung_program& program) : cells(program, kMessageSpace) {
-  // More than one a box only between a loss in the queue and its discovery.
+  // More than one message for a box exists only between a loss in the queue and its detection.
   const size_t room = cells.bytes / (size_t{kMessageWords} * 4) + core::kMessageCapacity;
   list.reserve(room);
   cleared.reserve(room);
@@ -119,7 +119,7 @@ bool Messages::isWanted(uint32_t code) const noexcept {
   return false;
 }
 
-// Where the program could not report the end of a message: no box wants it any more.
+// Removes messages that no box wants any more, whose end the program could not report.
 void Messages::dropUnwanted() {
   std::erase_if(list_, [&](const Entry& entry) { return !isWanted(entry.code); });
   changed_ = true;
@@ -130,7 +130,7 @@ void Messages::endGone(runtime::Instance& instance) noexcept {
     if (isWanted(entry.code)) continue;
     rung_message end = entry.message;
     end.op = RUNG_MESSAGE_CLEAR;
-    (void)instance.messages().push(end); // the list hears of it as of every other
+    (void)instance.messages().push(end); // the list receives it like any other message
   }
 }
 

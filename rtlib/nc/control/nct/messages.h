@@ -1,10 +1,10 @@
-// The messages of a program on the screen of the NCT control (man. §6.13, N_CLRMSG l.7987-8013): a list in which the
-// last one sent is on top. It takes what the program sent, deletes what the operator clears, and reports to the program
-// by the space @SHOWN and by N_MSGA, N_MSG0 and N_ACTMSG what is displayed.
+// The messages of a program on the screen of the NCT control (man. §6.13, N_CLRMSG l.7987-8013): a list with the last
+// message sent on top. It accepts the messages of the program, deletes those that the operator clears, and reports the
+// displayed messages to the program by the space @SHOWN and by N_MSGA, N_MSG0 and N_ACTMSG.
 //
-// A code is displayed once: sent again it comes to the top with its new number. A message that the operator clears goes
-// at the end of the PLC cycle in which N_CLRMSG is 1, so that the program sees both at once (l.2870); it comes back
-// with the next rising edge only. Nothing here allocates, but `shown` and the makers of places.
+// A code is displayed once: if it is sent again, it moves to the top with its new value. A message that the operator
+// clears disappears at the end of the PLC cycle in which N_CLRMSG is 1, so that the program sees both at once (l.2870);
+// it reappears only with the next rising edge. Scan thread; only `shown` and the constructor of Places allocate.
 #pragma once
 #include <span>
 #include <string>
@@ -20,12 +20,12 @@ namespace rung::nc::nct {
 class Messages {
   struct Entry {
     uint32_t code;
-    bool clearing; // goes at the end of this cycle
+    bool clearing; // it disappears at the end of this cycle
     rung_message message;
   };
 
 public:
-  // Where the messages of one program have their cells, and room for them.
+  // The cells of one program's messages, and storage for its list.
   class Places {
   public:
     explicit Places(const rung_program& program);
@@ -37,23 +37,23 @@ public:
     std::vector<uint32_t> cleared, sorted;
   };
 
-  // The program's memory has been started.
+  // At power-on, after the program's memory has been initialized.
   void powerOn();
-  // Of the program that runs now. Whichever has more room stays here. Messages that no box of it wants are cleared, by
-  // messages of the program: after a power-on there are none.
+  // Sets the places of the running program; of the two lists, the one with more room stays here. Messages that no box
+  // of the program wants any more are cleared by messages of the program; after a power-on there are none.
   void use(runtime::Instance& instance, Places& places) noexcept;
-  // What the program sent.
+  // A message that the program has sent.
   void accept(const rung_message& message);
-  // The operator's buttons: CANCEL takes the message on top, others the selected one or all of them. False: the
-  // selected one is not displayed.
+  // The operator's buttons: CANCEL clears the message on top, others clear the selected message or all of them. False:
+  // the selected message is not displayed.
   void cancelTop();
   void cancelAll();
   bool cancel(uint32_t code);
-  // Before a time slice. `common`: the word of N_CLRMSG, N_MSGA and N_MSG0; `lost` counts messages that found no room
-  // in the program's queue.
-  enum class Slice : uint8_t { Alone, First, Further }; // in no PLC cycle; its first one; another one
+  // Called before a time slice. `common` is the word of N_CLRMSG, N_MSGA and N_MSG0; `lost` counts messages that found
+  // no room in the program's queue.
+  enum class Slice : uint8_t { Alone, First, Further }; // outside PLC cycles; the first of a cycle; a later one
   void timeSlice(const SignalMemory& signals, SignalWord& common, Slice slice, uint32_t lost);
-  // After a PLC cycle; the first time slice of the next one makes up for it if this was not called.
+  // Called after a PLC cycle; if it was not called, the first time slice of the next cycle does its work.
   void endCycle();
 
   std::vector<ShownMessage> shown(const rung_program& program) const;
@@ -76,8 +76,8 @@ private:
   BitSignal any_{"N_MSGA"};
   BitSignal plc_{"N_MSG0"};
   WordSignal active_{"N_ACTMSG"};
-  std::span<uint8_t> cells_;      // see Places
-  std::vector<Entry> list_;       // the top is the last one; room for a message of each box
+  std::span<uint8_t> cells_;      // of the Places in use
+  std::vector<Entry> list_;       // the last element is on top; with room for a message of each box
   std::vector<uint32_t> cleared_; // by the operator since the last cycle
   std::vector<uint32_t> sorted_;  // scratch: the codes of the list
   uint32_t lost_ = 0;
@@ -87,8 +87,8 @@ private:
   bool changed_ = true;
 };
 
-// The message's number and the text with its values: the characters written, what does not fit is cut off.
-// Allocates nothing.
+// Writes the message's number and its text with the values. Returns the number of characters written; longer texts are
+// cut off. Allocates nothing.
 size_t logLine(const rung_program& program, const rung_message& message, std::span<char> out) noexcept;
 
 } // namespace rung::nc::nct

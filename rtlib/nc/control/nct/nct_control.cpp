@@ -11,7 +11,7 @@
 namespace rung::nc {
 namespace {
 
-constexpr uint32_t kFirstNcByte = 8; // words 0000 and 0001 are the program's
+constexpr uint32_t kFirstNcByte = 8; // words 0000 and 0001 belong to the program
 
 uint32_t hooksOf(const rung_program& program) {
   const std::span steps(program.scan, program.scan_count);
@@ -31,7 +31,7 @@ struct NctPlaces final : Places {
 
 // N_SIMU stays 0: the software does not run on the manufacturer's simulator (man. l.7927).
 void NctControl::prepare(runtime::Instance& instance, PowerOn kind) {
-  messages_.powerOn(); // those of the time before have ended: none is cleared
+  messages_.powerOn(); // forgets earlier messages without clearing them
   Control::prepare(instance, kind);
   timeSlices_ = cycles_ = 0;
   for (NctFunctions& channel : functions_) channel.powerOn(instance);
@@ -43,7 +43,7 @@ std::unique_ptr<Places> NctControl::locate(const rung_program& program) const {
   return std::make_unique<NctPlaces>(program);
 }
 
-// Between two scans, so the next time slice is the first of a cycle.
+// Called between two scans, so the next time slice is the first of a cycle.
 void NctControl::usePlaces(runtime::Instance& instance, Places& places) noexcept {
   auto& of = static_cast<NctPlaces&>(places);
   ts_ = nct::SignalMemory(instance, of.timeSlice);
@@ -71,7 +71,7 @@ void NctControl::start(runtime::Instance& instance) {
     instance.memory().writeByte(memory, byte, instance.memory().readByte(slice, byte));
 }
 
-// The first time slice of a scan begins a PLC cycle; one that is run by itself belongs to none.
+// The first time slice of a scan begins a PLC cycle; a time slice that is run separately belongs to none.
 void NctControl::onHook(runtime::Instance& instance, uint32_t) {
   using Slice = nct::Messages::Slice;
   if (instance.atListStart())
@@ -100,7 +100,7 @@ std::optional<runtime::Ref> NctControl::writePlace(const rung_program& program, 
   return place ? std::optional(nctTimeSlicePlace(program, *place)) : std::nullopt;
 }
 
-// What a program takes for granted (man. 7.12, l.7892-7901); N_NCREADY and N_NVRAMOK a host may know better.
+// Signals on which programs rely (man. 7.12, l.7892-7901), except N_NCREADY and N_NVRAMOK, which a host may set.
 bool NctControl::writesItself(const rung_program& program, const runtime::Ref& place) const {
   constexpr std::string_view kOwn[] = {"N_ON", "N_OFF", "N_FIRSTCC", "N_P2MS", "N_P2T", "N_P100MS", "N_P1S", "N_P1M"};
   const auto first = [](const runtime::Ref& ref) { return uint64_t{8} * ref.byte + ref.bit; };

@@ -1,5 +1,5 @@
-// The control of an NCT PLC: constant and clock signals in the NC area's hardware side (the time-slice memory), what
-// the program learns of its messages, names of the NC area.
+// The control of an NCT PLC: constant and clock signals on the hardware side of the NC area (the time-slice memory),
+// reports about displayed messages to the program, names of the NC area.
 #pragma once
 #include "rtlib/nc/control/control.h"
 #include "rtlib/nc/control/nct/messages.h"
@@ -12,13 +12,13 @@ class NctControl final : public Control {
 public:
   void prepare(runtime::Instance& instance, PowerOn kind) override;
   std::unique_ptr<Places> locate(const rung_program& program) const override;
-  // At power-on both memories hold what the NC says.
+  // At power-on both memories hold the values of the NC.
   void start(runtime::Instance& instance) override;
 
-  // Before every time slice, while NC inputs go to the time-slice memory.
+  // Called before every time slice, when NC inputs are written to the time-slice memory.
   void onHook(runtime::Instance& instance, uint32_t work) override;
   void afterSlice(runtime::Instance& instance) override;
-  // The time slice that runs now.
+  // The kind of the current time slice.
   nct::Messages::Slice slice() const { return now_; }
 
   // The NC and the hardware write the time-slice memory; the program sees it at the next synchronisation.
@@ -31,7 +31,7 @@ public:
   bool shows(const runtime::Instance&, std::span<const ShownMessage> these) const noexcept override {
     return messages_.shows(these);
   }
-  // The text has its numbers filled in.
+  // The text includes the values of the message.
   size_t describe(const rung_program& program, const rung_message& message,
                   std::span<char> out) const noexcept override;
   nct::Messages& list() { return messages_; }
@@ -77,8 +77,8 @@ private:
   nct::Messages::Slice now_ = nct::Messages::Slice::Alone;
   uint64_t timeSlices_ = 0;
   uint64_t cycles_ = 0;
-  uint32_t slice_ = 0;         // of all PLC cycles
-  uint32_t slicesOfCycle_ = 1; // of one
+  uint32_t slice_ = 0;         // time slices so far, over all PLC cycles
+  uint32_t slicesOfCycle_ = 1; // time slices in a PLC cycle
   bool retainedLost_ = false;
 };
 

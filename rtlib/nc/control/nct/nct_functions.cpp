@@ -57,8 +57,8 @@ void NctFunctions::selectSpindle() const {
   if (signals_.get(range_, channel_) == 0) signals_.set(range_, channel_, kFirstRange);
 }
 
-// The program may keep CP_FIN back for reasons of its own when all acknowledges are 1, and the NC takes no further
-// block then (l.10180-10192). While one is 0, CP_FIN says nothing of the others.
+// When all acknowledges are 1, the program may still hold CP_FIN at 0, and the NC then takes no further block
+// (l.10180-10192). While an acknowledge is 0, CP_FIN does not apply to the others.
 void NctFunctions::step() {
   if (!instance_->atListStart()) return;
   dropStrobes(signals_);

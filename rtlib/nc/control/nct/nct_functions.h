@@ -1,10 +1,10 @@
 // The handshake of one channel's M, S, T and auxiliary functions in NCT (man. l.9440-9535, 10241-10317): the NC writes
-// the code and sets the strobe for one PLC cycle, in which the program takes its acknowledge away; it gives it back
-// when the function is carried out, and CP_FIN when all are.
+// the code and sets the strobe for one PLC cycle, in which the program resets its acknowledge; the program sets it
+// again when the function is finished, and CP_FIN when all functions are.
 //
-// Acknowledges are 1 at rest (l.10271). The program takes one away for a code that it knows (l.9494, 10259-10263), and
-// may give it back in the same cycle; so its absence need not be seen. What counts is the level once the program has
-// run a whole PLC cycle with the strobe, not what is left from before it.
+// Acknowledges are 1 at rest (l.10271). The program resets one for a code that it knows (l.9494, 10259-10263), and may
+// set it again in the same cycle, so the NC need not see it at 0. The level counts once the program has run a whole PLC
+// cycle with the strobe, not before.
 #pragma once
 #include <array>
 
@@ -26,22 +26,22 @@ public:
 
   explicit NctFunctions(uint32_t channel) : channel_(channel) {} // from 0
 
-  // At power-on: the instance outlives the calls of Functions.
+  // At power-on. The instance outlives this object's use.
   void powerOn(runtime::Instance& instance);
   // The signals of the program that runs now.
   void use(const nct::SignalMemory& signals) { signals_ = signals; }
 
-  // The signals themselves, for an NC that keeps account of its blocks. At the beginning of a PLC cycle:
-  void dropStrobes(const nct::SignalMemory& signals); // those of the last one
+  // Direct access to the signals, for an NC that manages its blocks itself. At the beginning of a PLC cycle:
+  void dropStrobes(const nct::SignalMemory& signals); // resets the strobes of the last cycle
   void issue(const nct::SignalMemory& signals, uint32_t line, int32_t code);
   bool acknowledged(const nct::SignalMemory& signals, uint32_t line) const {
     return signals.get(acknowledge_[line], channel_);
   }
 
-  // A machine hands functions over as they come. A line is free when its acknowledge is 1: after an abort the program
-  // may still be busy with the function that was on it. M codes begin in their order, one a PLC cycle. S and T leave
-  // the spindle (CN_SSEL), its range (CN_RNGREQ) and the place of the tool to the part that knows them; spindle 1 and
-  // range 11 where those say nothing.
+  // Functions of a real machine start as they come. A line is free when its acknowledge is 1: after an abort the
+  // program may still be busy with its last function. M codes start in order, one in each PLC cycle. For S and T the
+  // caller sets the spindle (CN_SSEL), its range (CN_RNGREQ) and the place of the tool; if it does not, spindle 1 and
+  // range 11 apply.
   bool supports(FunctionKind kind, uint32_t) const override { return kind <= FunctionKind::B; }
   std::optional<uint32_t> start(FunctionKind kind, uint32_t code) override;
   void step() override;
@@ -59,7 +59,7 @@ private:
   const runtime::Instance* instance_ = nullptr;
   nct::SignalMemory signals_;
   std::array<Phase, kLines> phases_ = {};
-  uint32_t strobes_ = 0; // one bit a line
+  uint32_t strobes_ = 0; // one bit for each line
 
   nct::BitSignal strobe_[kLines] = {
       nct::BitSignal("CN_M1STB"),  nct::BitSignal("CN_M2STB"),   nct::BitSignal("CN_M3STB"),

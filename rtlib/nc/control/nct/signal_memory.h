@@ -1,5 +1,5 @@
-// What the NC sees of a program's memory: the NC's side of the NC area (the time-slice memory TS) by signals
-// that were looked up once, and the words of the PLC memory M. Nothing here allocates after construction.
+// The NC's view of a program's memory: its side of the NC area (the time-slice memory TS), by signals that are looked
+// up once, and the words of the PLC memory M. Nothing here allocates after construction.
 #pragma once
 #include <cstdint>
 #include <cstring>
@@ -11,8 +11,8 @@
 
 namespace rung::nc::nct {
 
-// The place of a signal of signals.csv, found when its owner is made. A name that is not there ends the program: the
-// names are in this code alone.
+// The place of a signal of signals.csv, looked up by the constructor. An unknown name aborts the process, because the
+// names come from this code only.
 class SignalPlace {
 public:
   uint32_t count() const { return count_; }
@@ -22,19 +22,19 @@ protected:
   friend class SignalMemory;
 
   uint32_t byte_ = 0;
-  uint32_t stride_ = 0; // from axis to axis, from channel to channel …
+  uint32_t stride_ = 0; // bytes from axis to axis, from channel to channel …
   uint32_t count_ = 0;
   uint8_t bit_ = 0;
 };
 
 struct BitSignal : SignalPlace {
   explicit BitSignal(std::string_view name) : SignalPlace(name) {}
-  // In its word (SignalMemory::wordOf).
+  // The bit in its word (SignalMemory::wordOf).
   uint32_t mask() const { return uint32_t{1} << bit_; }
   bool in(uint32_t word) const { return ((word >> bit_) & 1) != 0; }
   uint32_t as(bool value) const { return uint32_t{value} << bit_; }
 
-  // All of them, which are in one word: else it ends the program.
+  // The mask of several signals, which must be in one word; else the process is aborted.
   static uint32_t masks(std::span<const BitSignal> signals);
   static uint32_t masks(std::initializer_list<BitSignal> signals) {
     return masks(std::span(signals.begin(), signals.size()));
@@ -42,13 +42,13 @@ struct BitSignal : SignalPlace {
 };
 struct WordSignal : SignalPlace {
   explicit WordSignal(std::string_view name) : SignalPlace(name) {}
-  uint32_t bytes() const { return count_ * 4; } // of all of them, which follow each other
+  uint32_t bytes() const { return count_ * 4; } // of all elements, which are adjacent
 };
 struct RealSignal : SignalPlace {
   explicit RealSignal(std::string_view name) : SignalPlace(name) {}
 };
 
-// A packed space in the memory block; 0 bytes where the program does not have it so.
+// A packed space in the memory block; 0 bytes if the program does not have it, or not packed.
 struct PackedSpace {
   PackedSpace() = default;
   PackedSpace(const rung_program& program, std::string_view name);
@@ -75,12 +75,12 @@ public:
     setBits(signal, index, signal.mask(), signal.as(value));
   }
   void set(const BitSignal& signal, bool value) const { set(signal, 0, value); }
-  // The word that holds a bit, and several bits of it at once: those of the mask.
+  // Read the word that holds a bit, and write several bits of it at once: those of the mask.
   uint32_t wordOf(const BitSignal& signal, uint32_t index = 0) const { return load<uint32_t>(signal, index); }
   void setBits(const BitSignal& oneOf, uint32_t index, uint32_t mask, uint32_t bits) const {
     store(oneOf, index, (load<uint32_t>(oneOf, index) & ~mask) | bits);
   }
-  // All words of a signal that follow each other; none where the area does not have them all.
+  // All words of a signal, which are adjacent; empty if the area does not contain all of them.
   std::span<const uint8_t> all(const WordSignal& signal) const {
     const bool isThere = signal.byte_ + signal.bytes() <= size_ && (signal.stride_ == 4 || signal.count_ == 1);
     return isThere ? std::span<const uint8_t>(area_ + signal.byte_, signal.bytes()) : std::span<const uint8_t>();
@@ -120,14 +120,14 @@ private:
   uint32_t size_ = 0; // bytes
 };
 
-// Bits of one word of the NC's side that change together: read here, written by `write`.
+// Bits of one word of the NC's side that change together: the constructor reads them, `write` writes them.
 class SignalWord {
 public:
   // The word of `signal`.
   SignalWord(const SignalMemory& memory, const BitSignal& signal)
       : memory_(memory), place_(signal), bits_(memory.wordOf(signal)) {}
 
-  // Signals of the same word.
+  // Access to signals of the same word.
   bool get(const BitSignal& signal) const { return signal.in(bits_); }
   void set(const BitSignal& signal, bool value) { bits_ = (bits_ & ~signal.mask()) | signal.as(value); }
   void write() const { memory_.setBits(place_, 0, UINT32_MAX, bits_); }
@@ -138,7 +138,7 @@ private:
   uint32_t bits_;
 };
 
-// The words 0000 to 9999 as the program sees them. Bulk data of MR and MW go here directly, between two scans.
+// The words 0000 to 9999 as the program sees them. MR and MW transfer bulk data here directly, between two scans.
 class PlcMemory {
 public:
   static constexpr uint32_t kWords = 10000;

@@ -1,5 +1,5 @@
-// REQ_BACKUP_MEM: the program asks that PLC_MEM_BACKUP be saved now; the control resets the bit when it is done (man.
-// l.7549-7568, l.13500-13518).
+// REQ_BACKUP_MEM: the program requests saving of PLC_MEM_BACKUP; the control resets the bit when it is done (man.
+// l.7549-7568, l.13500-13518). Scan thread.
 #pragma once
 #include "rtlib/run/instance.h"
 
@@ -7,9 +7,9 @@ namespace rung::nc::technol {
 
 class Backup {
 public:
-  // Whether the host keeps the memory on disk; without it there is nothing to wait for.
+  // Whether the host stores the memory on disk; if not, requests are done at once.
   void setStored(bool stored) { stored_ = stored; }
-  // The place of REQ_BACKUP_MEM in a program; in the one that runs now.
+  // The place of REQ_BACKUP_MEM in a program; `use` sets that of the running program.
   static core::Place locate(const rung_program& program);
   void use(const core::Place& request) { request_ = request; }
   void afterMain(runtime::Instance& instance);

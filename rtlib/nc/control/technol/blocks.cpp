@@ -14,7 +14,7 @@ enum : uint64_t { kIdle = 0, kInit = 1, kMove = 2, kDone = 4 };
 // Change pulses and dynamic functions last one block (man. l.6819, l.6852-6856, l.6958, l.6968).
 bool lastsOneBlock(std::string_view name) { return name.starts_with("ZM") || name.ends_with("PID") || name == "M60PI"; }
 
-// The mode and G00, G33 of a block stay until the next start (man. l.6752-6780).
+// The mode, G00 and G33 of a block stay until the next start (man. l.6752-6780).
 constexpr std::string_view kUntilNextStart[] = {"AUTPI", "REFPI", "CAPI", "G00PI", "G33PI"};
 
 uint64_t get(const runtime::Instance& instance, const core::Place& place) { return instance.memory().read(place); }
@@ -92,8 +92,8 @@ void Blocks::annul(runtime::Instance& instance) {
   reached(instance);
 }
 
-// Not before all initialisation is done (man. l.2571-2576), nor while the program forbids or delays it (man.
-// l.6456-6467).
+// A block may not start before all initialisation is done (man. l.2571-2576), nor while the program forbids or delays
+// it (man. l.6456-6467).
 bool Blocks::mayStart(const runtime::Instance& instance) const {
   return get(instance, places_->initPending) == 0 && get(instance, places_->startDisable) == 0 &&
          get(instance, places_->startSuspend) == 0;
@@ -124,7 +124,7 @@ void Blocks::supervise(runtime::Instance& instance) {
   if (phase_ == Phase::Done && pass(instance, places_->done)) finish(instance);
 }
 
-// True when the module ran through. It starts at its beginning with every block.
+// Runs a module, from its beginning in every block. True: it has finished.
 bool Blocks::pass(runtime::Instance& instance, const Module& module) {
   if (first_) {
     put(instance, module.cont, 0);

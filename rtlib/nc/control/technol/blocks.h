@@ -1,5 +1,5 @@
-// The supervisor's way through a part-program block: MODULE_BLOCK_INIT, motion, MODULE_BLOCK_DONE (man. l.2682-2711),
-// and what the command block shows meanwhile (man. l.6746-6968).
+// The execution of a part-program block by the supervisor: MODULE_BLOCK_INIT, motion, MODULE_BLOCK_DONE (man.
+// l.2682-2711), and the contents of the command block meanwhile (man. l.6746-6968). Scan thread.
 #pragma once
 #include <optional>
 #include <span>
@@ -14,26 +14,26 @@ namespace rung::nc::technol {
 // A cell of the command block by its name. Nothing when the name is unknown.
 std::optional<runtime::Ref> commandCell(const runtime::Instance& instance, std::string_view name);
 
-// What a block puts into a cell of the command block.
+// A value that a block writes to a cell of the command block.
 struct CommandValue {
   core::Place place;
-  bool isReal = false; // else `integer`; an integer cell gets a real rounded
+  bool isReal = false; // `real` is the value, else `integer`; an integer cell gets a real rounded
   int64_t integer = 0;
   double real = 0;
 };
 
 class Blocks {
-  // A block module: its task, the state in which it waits, whether it has run through.
+  // A block module: its task, the cell of the state in which it waits, and the cell that says whether it has finished.
   struct Module {
     uint32_t task = RUNG_NONE;
     core::Place cont, done;
   };
 
 public:
-  // Where one program has what the blocks need.
+  // The places that the blocks need in one program.
   class Places {
   public:
-    Places() = default; // a program that has nothing
+    Places() = default; // a program without these
     explicit Places(const rung_program& program);
 
   private:
@@ -41,7 +41,7 @@ public:
     Module init, done;
     core::Place initPending, startDisable, startSuspend, statusRestart, blockInProgress, positionReached, stopDone,
         annulment;
-    std::vector<core::Place> lastOneBlock; // zero again at the end of the block
+    std::vector<core::Place> lastOneBlock; // cleared at the end of the block
     std::vector<core::Place> motionBits;   // PO_OS...
     std::vector<core::Place> untilNextStart;
     uint32_t queue = RUNG_NONE; // the space of the queue of command blocks
@@ -49,21 +49,21 @@ public:
 
   // At power-on: no block is under way.
   void reset();
-  // Those of the program that runs now, which outlive their use.
+  // Sets the places of the running program, which outlive their use.
   void use(const Places& places) { places_ = &places; }
 
-  // False: a block is under way already.
+  // Starts a block. False: a block is under way already.
   bool start(runtime::Instance& instance, std::span<const CommandValue> values);
-  // The programmed position has been reached; while MODULE_BLOCK_INIT runs: the block has no motion. False: no block is
-  // in motion.
+  // Reports that the programmed position has been reached, or, while MODULE_BLOCK_INIT runs, that the block has no
+  // motion. False: no block is in motion.
   bool reached(runtime::Instance& instance);
   bool busy() const { return phase_ != Phase::Idle; }
-  // MODULE_BLOCK_INIT has run through: the axes may move.
+  // MODULE_BLOCK_INIT has finished: the axes may move.
   bool inMotion() const { return phase_ == Phase::Motion; }
-  // Central annulment: the block under way is given up where it is, and a block in that mode, without motion, follows
-  // (man. l.6748-6761, 10826). Programs that hold a block wait for it (l.5180-5183, 6444-6447). A stop ends with it.
+  // Central annulment: the block under way is abandoned, and a block in annulment mode, without motion, follows (man.
+  // l.6748-6761, 10826). Programs that hold a block wait for it (l.5180-5183, 6444-6447). It ends a stop.
   void annul(runtime::Instance& instance);
-  // One scan, between MODULE_INPUT and MODULE_MAIN; where nothing waits the modules follow each other in it.
+  // The work of one scan, between MODULE_INPUT and MODULE_MAIN; modules that do not wait follow each other within it.
   void supervise(runtime::Instance& instance);
 
 private:
@@ -79,7 +79,7 @@ private:
   const Places* places_ = &kNothing;
   Phase phase_ = Phase::Idle;
   bool reached_ = false;
-  bool first_ = false; // pass of the module
+  bool first_ = false; // the module runs for the first time in this phase
 };
 
 } // namespace rung::nc::technol

@@ -16,7 +16,7 @@ namespace {
 constexpr const char* kCells = "I";
 constexpr const char* kBlocks = "BLK";
 
-// The type that a program writes before an element; the host reads and writes elements in their own.
+// Removes the type that a program writes before an element; the host accesses elements by their own type.
 std::string_view withoutType(std::string_view element) {
   for (const std::string_view type : {"BYTE.", "WORD.", "DWRD.", "QWRD.", "REAL."})
     if (element.size() > type.size() && text::startsWithIgnoringCase(element, type)) return element.substr(type.size());

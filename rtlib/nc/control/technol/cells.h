@@ -1,6 +1,5 @@
-// What the NC of a TECHNOL program reads and writes in it: cells of the program and of the interface, elements of the
-// queue of command blocks, modules with their registers at entry. Names in any case; what the program lacks is left
-// out.
+// The parts of a TECHNOL program that its NC accesses: cells of the program and of the interface, elements of the queue
+// of command blocks, modules with their registers at entry. Names are not case-sensitive.
 #pragma once
 #include <optional>
 #include <span>
@@ -11,28 +10,28 @@
 
 namespace rung::nc::technol {
 
-// The interface's own names: a cell, `STRUCTURE.MEMBER`, `CELL.WEIGHT`, `BLK[n].ELEMENT`, `BLK[n].ELEMENT[k]`, a type
-// before the element or not.
+// Finds a place by a name of the interface: a cell, `STRUCTURE.MEMBER`, `CELL.WEIGHT`, `BLK[n].ELEMENT`,
+// `BLK[n].ELEMENT[k]`, optionally with a type before the element.
 std::optional<runtime::Ref> signalPlace(const rung_program& program, std::string_view name);
 std::optional<runtime::Ref> cellPlace(const rung_program& program, std::string_view name);
 std::optional<runtime::Ref> placeOf(const rung_program& program, const Signal& signal);
 
-// The same, looked up once for the scans: what the program lacks reads 0 and takes nothing.
+// The same as a Place for the scans: a cell that the program does not have reads 0, and writing it does nothing.
 core::Place locateSignal(const rung_program& program, std::string_view name);
 core::Place locateCell(const rung_program& program, std::string_view name);
-// The first elements of an array of the interface.
+// Looks up the first elements of an array of the interface.
 void locateElements(const rung_program& program, std::string_view array, std::span<core::Place> elements);
 
-// 0 where there is no such cell.
+// Access by name. A missing cell reads 0, and writing it does nothing.
 uint64_t readCell(const runtime::Instance& instance, std::string_view name);
 void writeCell(runtime::Instance& instance, std::string_view name, uint64_t value);
 
-// A module or an event procedure of a program, with its registers; it is looked up once and then runs without names.
+// A module or an event procedure of a program, with its registers, looked up once so that scans need no names.
 class Procedure {
 public:
   Procedure() = default; // none
   Procedure(const rung_program& program, std::string_view task);
-  // One run. False: the program has none, or it failed.
+  // Runs it once. False: the program does not have it, or it failed.
   bool run(runtime::Instance& instance, uint64_t dr, bool rlo) const;
 
 private:
@@ -40,7 +39,7 @@ private:
   core::Place dr_, rlo_;
 };
 
-// One run of what is looked up now: not in a scan.
+// Looks the task up and runs it once: not in a scan.
 bool runWith(runtime::Instance& instance, std::string_view task, uint64_t dr, bool rlo);
 
 } // namespace rung::nc::technol

@@ -1,5 +1,5 @@
-// Identifiers of logical inputs and outputs: dotted names in any case (man. l.12679-12709). An index of zero is the
-// same as none and leading zeros do not count; `CNC.` may come first.
+// Identifiers of logical inputs and outputs: dotted names in any case (man. l.12679-12709). An index of zero means the
+// same as no index, leading zeros are ignored, and `CNC.` may come first.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -9,26 +9,27 @@
 
 namespace rung::nc::technol {
 
-// The one way to write it: upper case, indices without leading zeros, none that is zero, nothing around it.
+// The canonical form: upper case, indices without leading zeros, no zero index, no blanks around it.
 std::string canonical(std::string_view identifier);
 
-// What a connection adds to a canonical identifier: `.BIT[k]`, and before it the index of an element.
+// A canonical identifier of a connection without its suffixes: `.BIT[k]`, and before it the index of an element.
 struct Reference {
   std::string_view base;
   uint32_t element = 0;
   std::optional<uint32_t> bit;
 };
-// The bit alone, or the bit and the index.
+// withoutBit removes the bit, withoutIndex the index, too.
 Reference withoutBit(std::string_view canonicalName);
 Reference withoutIndex(Reference reference);
 
-// "[12]" at the beginning of the text, which loses it.
+// Takes "[12]" from the beginning of the text.
 std::optional<uint32_t> takeIndex(std::string_view& text);
-// `prefix` at the beginning of the text, which loses it.
+// Takes `prefix` from the beginning of the text.
 bool takePrefix(std::string_view& text, std::string_view prefix);
-// The characters of an identifier that came as words of eight, up to the first zero; they are put into `room`.
+// The characters, up to the first zero, of an identifier that is passed as words of eight characters. `room` stores
+// them.
 std::string_view charactersOf(std::span<const int64_t> words, std::span<char> room);
-// Decimal digits and nothing else, below 2^31.
+// A number below 2^31 that consists of decimal digits only.
 std::optional<uint32_t> decimal(std::string_view text);
 
 } // namespace rung::nc::technol

@@ -12,10 +12,10 @@
 namespace rung::nc::technol {
 namespace {
 
-constexpr size_t kMostShown = 256; // of either validity; more are logged only
+constexpr size_t kMostShown = 256; // of each validity; further messages are only logged
 constexpr size_t kLongestValue = 11;
 
-// Characters one after the other into `out`; what does not fit is left out.
+// Appends characters to `out`; characters that do not fit are dropped.
 class Line {
 public:
   explicit Line(std::span<char> out) : out_(out) {}
@@ -26,7 +26,7 @@ public:
   void put(std::string_view text) {
     for (const char c : text) put(c);
   }
-  // %d, %x and %X are the values in their order (man. l.5290-5297).
+  // %d, %x and %X are replaced by the values in order (man. l.5290-5297).
   void putFilled(std::string_view text, const MessageValues& values) {
     size_t next = 0;
     for (size_t i = 0; i < text.size(); ++i) {
@@ -87,7 +87,8 @@ bool Messages::isOnlyLogged(uint32_t number) const {
   return definition != nullptr && definition->kind == MessageKind::Event;
 }
 
-// The end of a persistent message; `set` of a transient one is ignored, its bit has no end.
+// Clear ends a persistent message. A transient message has no end: Clear begins it, as if `set` were not given, unless
+// it belongs to a bit.
 bool Messages::begins(const rung_message& message) const {
   return message.op != RUNG_MESSAGE_CLEAR ||
          (validityOf(message) == Validity::Transient && (message.number & kByBit) == 0);

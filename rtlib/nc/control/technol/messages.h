@@ -1,6 +1,6 @@
-// What the operator sees of the program's messages: transient ones one after the other, each until it is confirmed, and
-// beside them the persistent ones that the program shows and removes (man. l.5013-5046). Kind, validity and text come
-// from the control's files; a message that is not in them is persistent where the program says when it ends.
+// The program's messages as the operator sees them: transient messages one after the other, each until it is confirmed,
+// and beside them the persistent messages that the program shows and removes (man. l.5013-5046). Kind, validity and
+// text come from the control's files; a message that they do not define is persistent if the program removes it.
 #pragma once
 #include <cstdint>
 #include <span>
@@ -20,7 +20,7 @@ struct MessageDefinition {
   uint32_t number = 0; // 0 to 65535
   MessageKind kind = MessageKind::Err;
   Validity validity = Validity::Transient;
-  std::string text; // in one line; %d, %x or %X are places for the values of the message, three at most
+  std::string text; // one line; %d, %x and %X are placeholders for the values of the message, three at most
 };
 
 class Messages {
@@ -32,17 +32,17 @@ public:
   // At power-on: nothing is shown.
   void clear();
 
-  // What the program sent. Allocates nothing.
+  // A message that the program has sent. Allocates nothing.
   void accept(const rung_message& message);
-  // Whether it begins to be shown, or is only registered; else it ends.
+  // Whether the message begins to be shown, or is only logged; if not, it ends.
   bool begins(const rung_message& message) const;
-  // As a host reads it: without marks, its op is what becomes of it. Allocates nothing.
+  // The message as a host reads it: the number without marks, and the op that applies. Allocates nothing.
   rung_message outward(const rung_message& message) const noexcept;
-  // Number, subid and values, then the text with its values where there is one. Gives the characters written; what does
-  // not fit is cut off. Allocates nothing.
+  // Writes number, subid and values, then the text with its values if there is one. Returns the number of characters
+  // written; longer texts are cut off. Allocates nothing.
   size_t describe(const rung_message& message, std::span<char> out) const noexcept;
 
-  // The operator's: the transient message on the screen goes, the next one comes.
+  // The operator confirms the transient message on the screen; the next one appears.
   void confirm();
   std::vector<ShownMessage> shown() const;
   bool shows(std::span<const ShownMessage> these) const noexcept;
@@ -56,7 +56,7 @@ private:
 
   std::unordered_map<uint32_t, MessageDefinition> definitions_;
   std::vector<MessageValues> transient_;  // the first one is on the screen
-  std::vector<MessageValues> persistent_; // in the order in which they came
+  std::vector<MessageValues> persistent_; // in order of arrival
 };
 
 } // namespace rung::nc::technol

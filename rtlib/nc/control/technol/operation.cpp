@@ -54,8 +54,8 @@ void Operation::send(runtime::Instance& instance, PlcEvent event) const {
   places_->onEvent.run(instance, static_cast<uint64_t>(event), false);
 }
 
-// STOPPI is the program's to take back; the control resets the others (l.6402-6414, 11022-11030), which the host sees
-// for a scan.
+// The program resets STOPPI; the control resets the other requests (l.6402-6414, 11022-11030), which the host sees for
+// one scan.
 void Operation::takeRequests(runtime::Instance& instance) {
   const core::Memory memory = instance.memory();
   const bool key = get(instance, places_->stop);
@@ -73,7 +73,7 @@ void Operation::takeRequests(runtime::Instance& instance) {
     stop(instance, PlcEvent::StopRequest);
 }
 
-// Where nothing runs there is nothing to stop (l.6494-6496).
+// If nothing runs, there is nothing to stop (l.6494-6496).
 void Operation::stop(runtime::Instance& instance, PlcEvent request) {
   if (get(instance, places_->stopDone) || !runs_) return;
   asked_ = false;
@@ -89,16 +89,16 @@ void Operation::askForStart(runtime::Instance& instance) {
 }
 
 void Operation::start(runtime::Instance& instance) {
-  if (!runs_ && !get(instance, places_->stopDone)) asked_ = false; // given up
+  if (!runs_ && !get(instance, places_->stopDone)) asked_ = false; // the start was cancelled
   if (!asked_ || get(instance, places_->startDisable) || get(instance, places_->startSuspend)) return;
   asked_ = false;
   instance.memory().write(places_->stopDone, 0);
   send(instance, PlcEvent::Start);
 }
 
-// A motion is one block from where the host begins it to where it ends; the host's kind of motion stays in the block.
+// A motion of the host is one block from its beginning to its end, with the host's kind of motion.
 void Operation::follow(runtime::Instance& instance, bool moves) {
-  if (moves_ && !blocks_.busy()) moves_ = false; // given up by an annulment
+  if (moves_ && !blocks_.busy()) moves_ = false; // ended by an annulment
   if (moves && !moves_) {
     const core::Memory memory = instance.memory();
     const CommandValue values[] = {
@@ -110,8 +110,7 @@ void Operation::follow(runtime::Instance& instance, bool moves) {
   if (moves_ && !moves && blocks_.reached(instance)) moves_ = false;
 }
 
-// The program asks for a reference by HOMING_START_REQ, or for its zero point by HOMING_REQ, until the axis has it
-// (l.6643-6652).
+// HOMING_START_REQ requests a reference, HOMING_REQ a zero point, until the axis has it (l.6643-6652).
 void Operation::endHoming(runtime::Instance& instance) {
   const core::Memory memory = instance.memory();
   const uint64_t homed = memory.read(places_->homed);

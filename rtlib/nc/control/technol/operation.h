@@ -1,8 +1,8 @@
-// What the control does with the part program while its host moves the axes: START and STOP with their events (man.
-// l.1625-1644, 6396-6500), blocks with motion (l.2682-2711), and the enabling of the axes that follows from all of
-// that (MPX to MP6, l.6227).
+// The control's handling of the part program while its host moves the axes: START and STOP with their events (man.
+// l.1625-1644, 6396-6500), blocks with motion (l.2682-2711), and the resulting enabling of the axes (MPX to MP6,
+// l.6227). Scan thread.
 //
-// The host says by the status bits of the interface (8.3.6, l.7254-7317) what it does:
+// The host reports its state by the status bits of the interface (8.3.6, l.7254-7317):
 //   SF_RUN         a part program runs, also while it is stopped
 //   SF_STOP        it is stopped
 //   SF_NOTINPOS    a motion is under way, or waits for MPX to MP6
@@ -16,14 +16,14 @@
 
 namespace rung::nc::technol {
 
-// What _ON_EVENT has in DR (l.1638-1644).
+// The events that _ON_EVENT gets in DR (l.1638-1644).
 enum class PlcEvent : uint8_t { StopRequest = 1, EmergencyStopRequest, Stop, Start, StartRequest };
 
 class Operation {
-  static constexpr uint32_t kAxes = 6; // that have an MPx
+  static constexpr uint32_t kAxes = 6; // axes with an MPx
 
 public:
-  // Where one program has the cells.
+  // The places of the cells in one program.
   class Places {
   public:
     Places() = default; // a program without these cells
@@ -34,7 +34,7 @@ public:
     struct Axis {
       core::Place allowed, enabled; // MPxPI, MPx
     };
-    core::Place runs, stopped, moves, byHand; // of the host
+    core::Place runs, stopped, moves, byHand; // written by the host
     core::Place rapid, thread;                // G00PI, G33PI
     core::Place stop, stopRequest, emergencyRequest;
     core::Place startDisable, startSuspend, stopDone;
@@ -48,12 +48,12 @@ public:
   explicit Operation(Blocks& blocks) : blocks_(blocks) {}
   // At power-on: nothing runs.
   void reset();
-  // Those of the program that runs now, which outlive their use.
+  // Sets the places of the running program, which outlive their use.
   void use(const Places& places) { places_ = &places; }
 
-  // Before a scan, when the host has written its signals.
+  // Called before a scan, when the host has written its signals.
   void beforeScan(runtime::Instance& instance);
-  // After a slice, for a host that has called beforeScan.
+  // Called after a slice, by a host that calls beforeScan.
   void afterSlice(runtime::Instance& instance) const;
 
 private:
@@ -72,9 +72,9 @@ private:
 
   Blocks& blocks_;
   const Places* places_ = &kNothing;
-  bool runs_ = false;    // a program, or a block of MDI
+  bool runs_ = false;    // a part program or an MDI block is running
   bool stopped_ = false; // SF_STOP
-  bool asked_ = false;   // START_REQ is out, START is not
+  bool asked_ = false;   // START_REQ has been sent, START has not
   bool moves_ = false;   // the block under way is a motion
   bool stopKey_ = false; // STOPPI
   uint64_t homed_ = 0;

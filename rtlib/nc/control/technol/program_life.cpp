@@ -23,7 +23,7 @@ bool ProgramLife::donePending(const runtime::Instance& instance) const {
   return instance.memory().read(places_->donePending) != 0;
 }
 
-// A program that is stopped has had its shutdown.
+// A stopped program has already been shut down.
 bool ProgramLife::powerOff(runtime::Instance& instance) {
   if (instance.stopped()) return false;
   places_->done.run(instance, kPower, false);

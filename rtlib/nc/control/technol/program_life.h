@@ -7,10 +7,10 @@ namespace rung::nc::technol {
 
 class ProgramLife {
 public:
-  // Where one program has its end.
+  // The places for the end of one program.
   class Places {
   public:
-    Places() = default; // a program that has none
+    Places() = default; // a program without these
     explicit Places(const rung_program& program);
 
   private:
@@ -19,20 +19,20 @@ public:
     core::Place donePending;
   };
 
-  // Those of the program that runs now, which outlive their use.
+  // Sets the places of the running program, which outlive their use.
   void use(const Places& places) { places_ = &places; }
 
-  // After the reset of the memory. DR = 0 informs MODULE_INIT that the control was switched on.
+  // Called after the reset of the memory. Runs MODULE_INIT with DR = 0: the control was switched on.
   void powerOn(runtime::Instance& instance);
-  // MODULE_DONE with DR = 0. True while the program has to run on, because MODULE_DONE_FINISHED is pending.
+  // Runs MODULE_DONE with DR = 0. True: the program has to continue, because MODULE_DONE_FINISHED is pending.
   bool powerOff(runtime::Instance& instance);
   bool donePending(const runtime::Instance& instance) const;
 
-  // The commands START PLC and STOP PLC, DR = 1; CLEAR.
+  // The commands START PLC and STOP PLC (DR = 1), and CLEAR.
   void start(runtime::Instance& instance);
   void stop(runtime::Instance& instance);
   void clear(runtime::Instance& instance);
-  // The program stops when the end of its shutdown is no longer pending.
+  // Called after a scan: stops the program when the end of its shutdown is no longer pending.
   void afterScan(runtime::Instance& instance);
 
 private:

@@ -32,7 +32,7 @@ public:
   }
   size_t describe(const rung_program& program, const rung_message& message,
                   std::span<char> out) const noexcept override;
-  // As a line of the log.
+  // As in a line of the log.
   std::string text(const ShownMessage& message) const override;
 
   // A character is one byte, Windows-1250; the last byte of a text is its terminator.
@@ -46,7 +46,7 @@ public:
   bool asksToSave(const runtime::Instance& instance) const override { return backup_.asked(instance); }
   void saved(runtime::Instance& instance) override { backup_.saved(instance); }
 
-  // What the operator and the part program do.
+  // For the simulation, which acts as operator and part program.
   technol::ProgramLife& life() { return life_; }
   technol::Messages& list() { return messages_; }
   const technol::Messages& list() const { return messages_; }
@@ -62,7 +62,7 @@ protected:
 private:
   technol::Blocks blocks_;
   technol::Operation operation_{blocks_};
-  bool driven_ = false; // beforeSlice is called
+  bool driven_ = false; // the host calls beforeSlice
   TechnolFunctions functions_{blocks_};
   technol::ProgramLife life_;
   technol::Messages messages_;

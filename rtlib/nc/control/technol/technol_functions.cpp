@@ -15,8 +15,8 @@ namespace {
 
 constexpr uint32_t kMostTool = 99'999'999;
 
-// Groups of M functions (man. l.6703-6743, 7157-7182). A machine may have further ones in all groups; what is in none
-// is in 14 (l.7184-7214).
+// Groups of M functions (man. l.6703-6743, 7157-7182). A machine may have further functions in any group; functions
+// without a group belong to 14 (l.7184-7214).
 struct GroupOfM {
   uint8_t code;
   uint8_t group;
@@ -25,7 +25,7 @@ constexpr GroupOfM kGroupsOfM[] = {{0, 1},  {1, 1},  {2, 1},  {30, 1}, {3, 2},  
                                    {41, 3}, {42, 3}, {43, 3}, {44, 3}, {7, 5},  {8, 5},  {9, 5},  {17, 5}, {50, 6},
                                    {51, 6}, {52, 6}, {53, 6}, {10, 7}, {11, 7}, {48, 8}, {49, 8}, {6, 9},  {60, 9}};
 constexpr uint8_t kOtherGroup = 14;
-// It leaves the gear to the control, which sets M41PI to M44PI by the speed (l.6904-6907).
+// M40 leaves the gear to the control, which sets M41PI to M44PI by the speed (l.6904-6907).
 constexpr uint32_t kAutomaticGear = 40;
 
 // The cells with the code of a group in BCD (l.6785-6806).
@@ -36,7 +36,7 @@ struct CodeCell {
 constexpr CodeCell kCodeCells[] = {{2, "PB06"}, {10, "PB03"}, {11, "PB13"}, {12, "PB14"}, {13, "PB15"}, {14, "PB16"}};
 constexpr const char* kToolCells[] = {"PB07", "PB08", "PB09", "PB10"}; // the lowest digits first
 
-// Bits that are 1 by these codes, and 0 by the others of their group (l.6841-6968; BLK: l.6988-6989).
+// Bits that these codes set to 1, and other codes of their group to 0 (l.6841-6968; BLK: l.6988-6989).
 struct DecodedBit {
   const char* cell;
   uint32_t group;
@@ -109,7 +109,7 @@ bool TechnolFunctions::supports(FunctionKind kind, uint32_t code) const {
   return false;
 }
 
-// The block is one of the automatic mode (l.6748-6755).
+// The block belongs to the automatic mode (l.6748-6755).
 std::optional<uint32_t> TechnolFunctions::start(FunctionKind kind, uint32_t code) {
   if (kind == FunctionKind::Key) return press(code);
   if (blocks_.busy()) return std::nullopt;
@@ -135,7 +135,7 @@ std::optional<uint32_t> TechnolFunctions::press(uint32_t code) {
   return kKeyLine;
 }
 
-// Between two scans.
+// Acts only between two scans.
 void TechnolFunctions::step() {
   if (key_ == Key::None || !instance_->atListStart()) return;
   const auto code = static_cast<uint64_t>(static_cast<int64_t>(static_cast<int32_t>(keyCode_)));
@@ -157,7 +157,7 @@ void TechnolFunctions::addM(Values& values, uint32_t code) const {
   }
 }
 
-// The output for the drive (PB11, PB12, rSPINDLE_OUTPUT_1) is by the gears that the control is configured with
+// The output for the drive (PB11, PB12, rSPINDLE_OUTPUT_1) is not written: it depends on the configured gears
 // (l.8180-8236).
 void TechnolFunctions::addSpeed(Values& values, uint32_t code) const {
   values.add(places_->speedChanged, 1);

@@ -1,9 +1,9 @@
 // M, S, T and H functions of TECHNOL: a function is a block of the part program without motion. The control writes its
 // code and its change bit into the command block (man. l.6682-6968, 6978-7136) and sends the block through
-// MODULE_BLOCK_INIT and MODULE_BLOCK_DONE (blocks.h); the function is finished when the block is. Blocks follow each
-// other, so functions do (l.2682-2711). Reset and emergency stop are the central annulment (Blocks::annul).
-// A key is a PLCCommand of the control's configuration: _ON_CMD learns that it is pressed, and in the next scan that it
-// is released (l.1614-1624).
+// MODULE_BLOCK_INIT and MODULE_BLOCK_DONE (blocks.h); the function is finished when the block is. Blocks are executed
+// one after the other, so functions are, too (l.2682-2711). Reset and emergency stop cause the central annulment
+// (Blocks::annul). A key is a PLCCommand of the control's configuration: _ON_CMD is called when it is pressed, and in
+// the next scan for its release (l.1614-1624). Scan thread.
 #pragma once
 #include <array>
 
@@ -15,9 +15,9 @@ namespace rung::nc {
 
 class TechnolFunctions final : public Functions {
   static constexpr uint32_t kMostM = 99;
-  static constexpr uint32_t kGroups = 14; // of M functions, from 1
+  static constexpr uint32_t kGroups = 14; // groups of M functions, from 1
   static constexpr uint32_t kDecoded = 21;
-  static constexpr uint32_t kMostValues = 16; // of a block
+  static constexpr uint32_t kMostValues = 16; // values of a block
   static constexpr uint32_t kBlockLine = 0, kKeyLine = 1;
   enum class Key : uint8_t { None, Waits, Pressed };
 
@@ -27,7 +27,7 @@ class TechnolFunctions final : public Functions {
   };
 
 public:
-  // Where one program has the cells.
+  // The places of the cells in one program.
   class Places {
   public:
     Places() = default; // a program without these cells
@@ -45,10 +45,10 @@ public:
     std::array<core::Place, 4> toolDigits;
   };
 
-  // The blocks outlive it.
+  // The blocks outlive this object.
   explicit TechnolFunctions(technol::Blocks& blocks);
 
-  // Those of the program that runs now, which outlive their use; so does the instance.
+  // Sets the places of the running program. Instance and places outlive their use.
   void use(runtime::Instance& instance, const Places& places) {
     instance_ = &instance;
     places_ = &places;
@@ -56,10 +56,10 @@ public:
 
   // At power-on: no key is pressed.
   void reset() { key_ = Key::None; }
-  // The attribute GroupNo of the control's configuration: groups 1 to 14, not of functions that the control itself has
-  // in a group (l.7184-7214).
+  // The attribute GroupNo of the control's configuration: groups 1 to 14, but not for functions to which the control
+  // itself assigns a group (l.7184-7214).
   bool setGroup(uint32_t code, uint32_t group) override;
-  // M and H up to 99, T up to 99999999: what their BCD cells hold. No B: the command block has no second auxiliary
+  // M and H up to 99, T up to 99999999, which fit in their BCD cells. No B: the command block has no second auxiliary
   // function.
   bool supports(FunctionKind kind, uint32_t code) const override;
   std::optional<uint32_t> start(FunctionKind kind, uint32_t code) override;
@@ -68,7 +68,7 @@ public:
   void abort() override { blocks_.annul(*instance_); }
 
 private:
-  // What a block writes.
+  // The values that a block writes.
   struct Values {
     std::array<technol::CommandValue, kMostValues> all;
     uint32_t count = 0;

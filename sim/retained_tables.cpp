@@ -18,16 +18,16 @@ constexpr uint64_t kFormat = 0x52554E474E430001;
 } // namespace
 
 RetainedTables::RetainedTables(SimulatedNc& model, const std::string& file, std::chrono::milliseconds period)
-    : model_(&model), size_(model.keptSize()),
+    : model_(&model), size_(model.retainedSize()),
       store_(std::make_unique<runtime::RetainStore>(file + ".nc", kFormat, size_)), period_(period) {}
 
 bool RetainedTables::load(std::string& report, std::string& error) {
   if (size_ == 0 || !store_->lock(error)) return false;
   const runtime::RetainImage image = store_->load();
   report = image.report;
-  model_->restoreKept(image.found ? std::span<const uint8_t>(image.bytes) : std::span<const uint8_t>());
+  model_->restoreRetained(image.found ? std::span<const uint8_t>(image.bytes) : std::span<const uint8_t>());
   std::vector<uint8_t> now(size_);
-  model_->copyKept(now);
+  model_->copyRetained(now);
   if (!store_->save(now, error)) return false;
   const auto pack = [](std::span<const uint8_t> raw, std::span<uint8_t> to) { std::ranges::copy(raw, to.begin()); };
   saver_ = std::make_unique<runtime::RetainSaver>(
@@ -36,12 +36,12 @@ bool RetainedTables::load(std::string& report, std::string& error) {
 }
 
 void RetainedTables::offer() noexcept {
-  if (saver_ && saver_->taken()) saver_->offerFrom([this](std::span<uint8_t> to) { model_->copyKept(to); });
+  if (saver_ && saver_->taken()) saver_->offerFrom([this](std::span<uint8_t> to) { model_->copyRetained(to); });
 }
 
 std::string RetainedTables::finish() {
   if (!saver_) return {};
-  saver_->offerFrom([this](std::span<uint8_t> to) { model_->copyKept(to); });
+  saver_->offerFrom([this](std::span<uint8_t> to) { model_->copyRetained(to); });
   return saver_->flush() ? std::string() : saver_->problem();
 }
 

@@ -79,11 +79,11 @@ public:
   void powerOn(runtime::Instance& instance, nc::PowerOn kind) override;
 
   // The state that the NC itself retains through power-off, besides the program's retained memory: an image of a fixed
-  // size once it is configured, 0: nothing. `copyKept` allocates nothing. `restoreKept` must precede powerOn, whose
-  // kind then applies only to the program; an empty image is that of an NC as delivered.
-  virtual uint32_t keptSize() { return 0; }
-  virtual void copyKept(std::span<uint8_t> image) noexcept { (void)image; }
-  virtual void restoreKept(std::span<const uint8_t> image) { (void)image; }
+  // size once it is configured, 0: nothing. `copyRetained` allocates nothing. `restoreRetained` must precede powerOn,
+  // whose kind then applies only to the program; an empty image is that of an NC as delivered.
+  virtual uint32_t retainedSize() { return 0; }
+  virtual void copyRetained(std::span<uint8_t> image) noexcept { (void)image; }
+  virtual void restoreRetained(std::span<const uint8_t> image) { (void)image; }
   // Time has passed while a fault prevented the program from running.
   virtual void idle(runtime::Instance& instance) { (void)instance; }
   // The program runs on the machine's clock from now on.

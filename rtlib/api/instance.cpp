@@ -83,7 +83,7 @@ void log(const rung_instance& instance, rung_log_level level, const std::string&
 
 // Loads the retained memory, after saving that of the former power-on (after a fault, that of the last whole scan). If
 // it cannot be saved, the program stays off, and the image is kept for the next attempt.
-int32_t takeKept(rung_instance& instance, nc::PowerOn& kind) {
+int32_t loadRetained(rung_instance& instance, nc::PowerOn& kind) {
   std::string report, error;
   std::optional<nc::PowerOn> found;
   {
@@ -92,7 +92,7 @@ int32_t takeKept(rung_instance& instance, nc::PowerOn& kind) {
       if (const std::string unsaved = instance.retention->finish(); !unsaved.empty())
         return fail(RUNG_FAILED, "%s", unsaved.c_str());
     instance.retention.reset();
-    instance.retention = std::make_unique<nc::Retention>(*instance.control, instance.running, instance.keptFile,
+    instance.retention = std::make_unique<nc::Retention>(*instance.control, instance.running, instance.retainFile,
                                                          &runtime::takeRetainedOf, instance.outside);
     found = instance.retention->load(report, error);
     if (!found) instance.retention.reset();
@@ -107,8 +107,8 @@ int32_t powerOn(rung_instance& instance, nc::PowerOn kind) {
   instance.on = false;
   clearOutputs(instance); // until the first slice ends, or if a fault prevents it
   endShadow(instance);
-  if (!instance.keptFile.empty()) {
-    if (const int32_t status = takeKept(instance, kind); status != RUNG_OK) return status;
+  if (!instance.retainFile.empty()) {
+    if (const int32_t status = loadRetained(instance, kind); status != RUNG_OK) return status;
   } else if (!instance.wasOn) {
     kind = nc::PowerOn::Cold;
   }
@@ -249,7 +249,7 @@ int32_t rung_instance_keep(rung_instance* instance, const char* path) {
   if (path == nullptr || *path == 0) return fail(RUNG_BAD_ARGUMENT, "retained memory needs the name of a file");
   if (call->wasOn) return fail(RUNG_WRONG_STATE, "where retained memory is kept is said before the first power-on");
   return contained([&] {
-    call->keptFile = path;
+    call->retainFile = path;
     return int32_t{RUNG_OK};
   });
 }

@@ -88,7 +88,7 @@ struct rung_instance {
   rung::api::Watches watches;
   rung::core::FixedRing<rung::api::Said, rung::core::kMessageCapacity> messages;
   rung::runtime::Outside outside;
-  std::string keptFile;                           // base path of the retained memory; "": it is not stored
+  std::string retainFile;                         // base path of the retained memory; "": it is not stored
   std::unique_ptr<rung::nc::Retention> retention; // made at the first power-on if retained memory is stored
   std::mutex retentionChanges;                    // held while `retention` is replaced
   uint32_t functionChannels = 0;                  // a bit for each channel in which a function was started

@@ -70,7 +70,7 @@ private:
 
   void addCell(const rung_symbol& s) {
     if ((s.flags & (RUNG_SYMBOL_CONST | RUNG_SYMBOL_AREA)) == 0 &&
-        isKept(runs_, s.space, 8 * uint64_t{s.byte} + s.bit, uint64_t{elementBits(s.type)} * s.count))
+        isRetained(runs_, s.space, 8 * uint64_t{s.byte} + s.bit, uint64_t{elementBits(s.type)} * s.count))
       addLine("cell", s.name, {numbers_[s.space], s.byte, s.bit, s.type, s.count, s.reach});
   }
 
@@ -82,7 +82,7 @@ private:
 
 } // namespace
 
-bool isKept(std::span<const RetainRun> runs, uint32_t space, uint64_t firstBit, uint64_t bits) {
+bool isRetained(std::span<const RetainRun> runs, uint32_t space, uint64_t firstBit, uint64_t bits) {
   return std::ranges::any_of(runs, [&](const RetainRun& run) {
     return run.space == space && 8 * uint64_t{run.first} <= firstBit &&
            firstBit + bits <= 8 * (uint64_t{run.first} + run.count);

@@ -34,7 +34,7 @@ struct RetainRun {
 };
 
 // Whether `bits` bits from `firstBit` on, counted from the beginning of the space, are all retained, in one run.
-bool isKept(std::span<const RetainRun> runs, uint32_t space, uint64_t firstBit, uint64_t bits);
+bool isRetained(std::span<const RetainRun> runs, uint32_t space, uint64_t firstBit, uint64_t bits);
 
 // The layout for a program and its retained bytes, in the order of the image.
 RetainLayout retainLayoutOf(const rung_program& program, std::span<const RetainRun> runs);

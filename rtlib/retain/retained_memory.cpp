@@ -183,7 +183,7 @@ bool Cells::isSound() const {
   const auto goodCell = [&](const Cell& cell) {
     const uint64_t bits = uint64_t{elementBits(cell.type)} * cell.count;
     return bits != 0 && cell.bit < 8 && (cell.bit == 0 || cell.type == RUNG_TYPE_BIT) &&
-           isKept(runs, cell.space, 8 * uint64_t{cell.byte} + cell.bit, bits);
+           isRetained(runs, cell.space, 8 * uint64_t{cell.byte} + cell.bit, bits);
   };
   return std::ranges::all_of(runs, goodRun) && std::ranges::all_of(cells, goodCell) &&
          std::ranges::is_sorted(cells, {}, &Cell::name);

@@ -175,10 +175,10 @@ void Axes::timeSlice() {
   });
 }
 
-void Axes::keep(Kept& kept) {
+void Axes::retain(Retained& retained) {
   for (Axis& state : axes_) {
-    kept.value(state.position);
-    kept.value(state.zeroPoint);
+    retained.value(state.position);
+    retained.value(state.zeroPoint);
   }
 }
 

@@ -123,7 +123,7 @@ public:
   void powerOn(nc::PowerOn kind) override;
   void cycle() override;
   void timeSlice() override;
-  void keep(Kept& kept) override;
+  void retain(Retained& retained) override;
 
 private:
   struct Axis {

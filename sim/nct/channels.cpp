@@ -155,11 +155,11 @@ void Channels::powerOn(nc::PowerOn kind) {
   programs_.clear();
 }
 
-void Channels::keep(Kept& kept) {
-  kept.value(selected_);
+void Channels::retain(Retained& retained) {
+  retained.value(selected_);
   for (const auto& channel : channels_) {
-    kept.value(channel->parts);
-    kept.value(channel->partsWanted);
+    retained.value(channel->parts);
+    retained.value(channel->partsWanted);
   }
 }
 

@@ -30,7 +30,7 @@ public:
   void powerOn(nc::PowerOn kind) override;
   void cycle() override;
   void timeSlice() override;
-  void keep(Kept& kept) override;
+  void retain(Retained& retained) override;
 
 private:
   const ChannelProgram* find(int32_t number) const;

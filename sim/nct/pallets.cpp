@@ -536,6 +536,6 @@ std::optional<PalletPlace> PalletTable::freeVirtual(const PalletPlan& plan) cons
 
 void PalletTable::clear() { rows_.fill(PalletRow()); }
 
-void PalletTable::keep(Kept& kept) { kept.values(std::span<PalletRow>(rows_)); }
+void PalletTable::retain(Retained& retained) { retained.values(std::span<PalletRow>(rows_)); }
 
 } // namespace rung::sim::nct

@@ -11,8 +11,8 @@
 #include <string_view>
 #include <vector>
 
-#include "sim/nct/kept.h"
 #include "sim/nct/parameters.h"
+#include "sim/nct/retained.h"
 #include "sim/nct/topic.h"
 
 namespace rung::sim::nct {
@@ -86,7 +86,7 @@ public:
   std::optional<PalletPlace> freeVirtual(const PalletPlan& plan) const;
 
   void clear();
-  void keep(Kept& kept);
+  void retain(Retained& retained);
 
 private:
   uint32_t index(PalletPlace place) const;
@@ -117,7 +117,7 @@ public:
   Handled setQuantity(std::string_view name, double value) override;
   void powerOn(nc::PowerOn kind) override;
   void cycle() override;
-  void keep(Kept& kept) override { table_.keep(kept); }
+  void retain(Retained& retained) override { table_.retain(retained); }
 
   const PalletTable& table() const { return table_; }
   PalletPlan plan() const;

@@ -70,9 +70,9 @@ void Parameters::powerOn(nc::PowerOn kind) {
   writeConstants();
 }
 
-void Parameters::keep(Kept& kept) {
-  kept.values(std::span<double>(values_));
-  kept.value(checksum_);
+void Parameters::retain(Retained& retained) {
+  retained.values(std::span<double>(values_));
+  retained.value(checksum_);
 }
 
 // Writes N1201… to N_Pij, N_PDW1 and N_PDB1 (man. 7.11).
@@ -277,10 +277,10 @@ Handled Macros::setQuantity(std::string_view name, double value) {
 
 void Macros::powerOn(nc::PowerOn kind) {
   volatile_ = {};
-  if (kind == nc::PowerOn::Cold) kept_ = {};
+  if (kind == nc::PowerOn::Cold) retained_ = {};
 }
 
-void Macros::keep(Kept& kept) { kept.value(kept_); }
+void Macros::retain(Retained& retained) { retained.value(retained_); }
 
 // MR 10 and MW 11.
 
@@ -349,9 +349,9 @@ void Nvram::powerOn(nc::PowerOn kind) {
   checksum_ = sumOf(words_);
 }
 
-void Nvram::keep(Kept& kept) {
-  kept.value(words_);
-  kept.value(checksum_);
+void Nvram::retain(Retained& retained) {
+  retained.value(words_);
+  retained.value(checksum_);
 }
 
 // MW 40.

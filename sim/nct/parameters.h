@@ -51,7 +51,7 @@ public:
   std::optional<double> quantity(std::string_view name) const override;
   Handled setQuantity(std::string_view name, double value) override;
   void powerOn(nc::PowerOn kind) override;
-  void keep(Kept& kept) override;
+  void retain(Retained& retained) override;
 
 private:
   struct Found {
@@ -95,21 +95,22 @@ public:
   std::optional<double> quantity(std::string_view name) const override;
   Handled setQuantity(std::string_view name, double value) override;
   void powerOn(nc::PowerOn kind) override;
-  void keep(Kept& kept) override;
+  void retain(Retained& retained) override;
 
 private:
   static constexpr uint32_t kFirst = 100;
-  static constexpr uint32_t kFirstKept = 500;
+  static constexpr uint32_t kFirstRetained = 500;
   static constexpr uint32_t kLast = 999;
-  static constexpr uint32_t kVolatile = kFirstKept - kFirst;
-  static constexpr uint32_t kKeptVariables = kLast - kFirstKept + 1;
+  static constexpr uint32_t kVolatile = kFirstRetained - kFirst;
+  static constexpr uint32_t kRetainedVariables = kLast - kFirstRetained + 1;
 
   double& place(uint32_t variable, uint32_t channel) {
-    return variable < kFirstKept ? volatile_[channel][variable - kFirst] : kept_[channel][variable - kFirstKept];
+    return variable < kFirstRetained ? volatile_[channel][variable - kFirst]
+                                     : retained_[channel][variable - kFirstRetained];
   }
 
   std::array<std::array<double, kVolatile>, nc::nct::kChannels> volatile_{};
-  std::array<std::array<double, kKeptVariables>, nc::nct::kChannels> kept_{};
+  std::array<std::array<double, kRetainedVariables>, nc::nct::kChannels> retained_{};
   WordSignal bitsToProgram_{"CP_1032"};
   RealSignal toProgram_[3] = {RealSignal("CP_1033"), RealSignal("CP_1034"), RealSignal("CP_1035")};
   WordSignal bitsToPlc_{"CN_1132"};
@@ -134,7 +135,7 @@ public:
   std::optional<double> quantity(std::string_view name) const override;
   Handled setQuantity(std::string_view name, double value) override;
   void powerOn(nc::PowerOn kind) override;
-  void keep(Kept& kept) override;
+  void retain(Retained& retained) override;
 
 private:
   std::array<int32_t, kNvramWords> words_{};

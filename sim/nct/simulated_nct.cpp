@@ -33,7 +33,7 @@ public:
     ran_ = false;
     requested_ = 0;
     if (simulated_)
-      simulator_.powerOn(instance, control_.signals(), std::exchange(keptRestored_, false) ? nc::PowerOn::Warm : kind);
+      simulator_.powerOn(instance, control_.signals(), std::exchange(restored_, false) ? nc::PowerOn::Warm : kind);
     control_.start(instance);
   }
 
@@ -41,21 +41,21 @@ public:
     simulator_.programChanged(instance, control_.signals());
   }
 
-  uint32_t keptSize() override {
-    nct::Kept size = nct::Kept::measure();
-    if (simulated_) simulator_.keep(size);
+  uint32_t retainedSize() override {
+    nct::Retained size = nct::Retained::measure();
+    if (simulated_) simulator_.retain(size);
     return size.size();
   }
-  void copyKept(std::span<uint8_t> image) noexcept override {
-    nct::Kept save = nct::Kept::save(image);
-    simulator_.keep(save);
+  void copyRetained(std::span<uint8_t> image) noexcept override {
+    nct::Retained save = nct::Retained::save(image);
+    simulator_.retain(save);
   }
-  void restoreKept(std::span<const uint8_t> image) override {
+  void restoreRetained(std::span<const uint8_t> image) override {
     simulator_.deliver();
     if (image.empty()) return;
-    nct::Kept restore = nct::Kept::restore(image);
-    simulator_.keep(restore);
-    keptRestored_ = true;
+    nct::Retained restore = nct::Retained::restore(image);
+    simulator_.retain(restore);
+    restored_ = true;
   }
 
   void onHook(runtime::Instance& instance, uint32_t work) override {
@@ -158,7 +158,7 @@ private:
   bool simulated_ = false;
   bool byEthercat_ = false;
   bool nvramLost_ = false;
-  bool keptRestored_ = false;
+  bool restored_ = false;
   nc::nct::BitSignal onSimulator_{"N_SIMU"};
   nc::nct::BitSignal nvramByEthercat_{"N_NVECAT"};
   nc::nct::BitSignal plcAxisRequest_{"AP_PLCR"};

@@ -60,8 +60,8 @@ Handled Simulator::setQuantity(std::string_view name, double value) {
   return std::nullopt;
 }
 
-void Simulator::keep(Kept& kept) {
-  for (Topic* topic : topics_) topic->keep(kept);
+void Simulator::retain(Retained& retained) {
+  for (Topic* topic : topics_) topic->retain(retained);
 }
 
 void Simulator::deliver() {

@@ -44,7 +44,7 @@ public:
   void betweenScans(runtime::Instance& instance);
   void setRealTime() { links_.realTime = true; }
 
-  void keep(Kept& kept);
+  void retain(Retained& retained);
   // Sets the tables to those of a control as delivered, with the configuration applied.
   void deliver();
 

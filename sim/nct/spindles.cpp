@@ -286,8 +286,8 @@ void Spindles::powerOn(nc::PowerOn kind) {
   writeSignals(existing());
 }
 
-void Spindles::keep(Kept& kept) {
-  for (Spindle& state : spindles_) kept.value(state.position);
+void Spindles::retain(Retained& retained) {
+  for (Spindle& state : spindles_) retained.value(state.position);
 }
 
 // ---- configuration, events, quantities ---------------------------------------------------------------------------

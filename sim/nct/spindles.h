@@ -81,7 +81,7 @@ public:
   void powerOn(nc::PowerOn kind) override;
   void cycle() override;
   void timeSlice() override;
-  void keep(Kept& kept) override;
+  void retain(Retained& retained) override;
 
 private:
   // The program's command to a spindle; the four exclude each other (l.9186-9196).

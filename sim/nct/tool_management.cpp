@@ -61,10 +61,10 @@ void ToolManagement::powerOn(nc::PowerOn kind) {
   for (const Setting& setting : settings_) setQuantity(setting.name, setting.value);
 }
 
-void ToolManagement::keep(Kept& kept) {
-  tables_.tools.keep(kept);
-  tables_.cartridges.keep(kept);
-  tables_.patterns.keep(kept);
+void ToolManagement::retain(Retained& retained) {
+  tables_.tools.retain(retained);
+  tables_.cartridges.retain(retained);
+  tables_.patterns.retain(retained);
 }
 
 bool ToolManagement::managed() const { return links().parameters->bit(toolConfig_, 0); }

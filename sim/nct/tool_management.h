@@ -45,7 +45,7 @@ public:
   Handled setQuantity(std::string_view name, double value) override;
   void powerOn(nc::PowerOn kind) override;
   void cycle() override;
-  void keep(Kept& kept) override;
+  void retain(Retained& retained) override;
 
   // For the channels. `spindle` counts from 0.
   bool managed() const;                     // N2900 #0 TMU

@@ -128,9 +128,9 @@ void CartridgeTable::build(std::span<const CartridgeShape> shapes, uint32_t data
   serial_.assign(dataNumbers + size_t{1}, 0);
 }
 
-void CartridgeTable::keep(Kept& kept) {
-  kept.values(std::span(pots_));
-  kept.values(std::span(serial_));
+void CartridgeTable::retain(Retained& retained) {
+  retained.values(std::span(pots_));
+  retained.values(std::span(serial_));
 }
 
 void CartridgeTable::clear() {

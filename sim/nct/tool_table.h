@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "sim/nct/kept.h"
+#include "sim/nct/retained.h"
 
 namespace rung::sim::nct {
 
@@ -107,7 +107,7 @@ public:
   const ToolRow& row(uint32_t dataNumber) const { return rows_[dataNumber]; }
   void clear(uint32_t dataNumber) { rows_[dataNumber] = {}; }
   uint32_t firstFree() const; // 0: none
-  void keep(Kept& kept) { kept.values(std::span(rows_)); }
+  void retain(Retained& retained) { retained.values(std::span(rows_)); }
 
 private:
   std::vector<ToolRow> rows_ = std::vector<ToolRow>(1); // row 0 is not used
@@ -158,7 +158,7 @@ public:
   void exchange(PotPlace first, PotPlace second);
   std::optional<PotPlace> placeOf(uint32_t dataNumber) const;
   void take(uint32_t dataNumber); // removes it from its pot
-  void keep(Kept& kept);
+  void retain(Retained& retained);
 
 private:
   struct Cartridge {
@@ -220,7 +220,7 @@ public:
     if (has(figure)) rows_[figure] = pattern;
   }
   void clear() { rows_.fill({}); }
-  void keep(Kept& kept) { kept.value(rows_); }
+  void retain(Retained& retained) { retained.value(rows_); }
 
 private:
   std::array<ToolPattern, kRows + 1> rows_{};

@@ -13,7 +13,7 @@
 #include "rtlib/nc/control/nct/signal_memory.h"
 #include "rtlib/nc/nct/operand_block.h"
 #include "sim/keys.h"
-#include "sim/nct/kept.h"
+#include "sim/nct/retained.h"
 #include "sim/simulated_nc.h"
 
 namespace rung::sim::nct {
@@ -90,7 +90,7 @@ public:
   virtual void cycle() {}
   virtual void timeSlice() {}
   // Names the non-volatile fields, always the same and in the same order once the configuration is complete.
-  virtual void keep(Kept& kept) { (void)kept; }
+  virtual void retain(Retained& retained) { (void)retained; }
 
 protected:
   Links& links() const { return links_; }

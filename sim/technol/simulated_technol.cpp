@@ -93,9 +93,9 @@ public:
     for (const std::string& text : devices_.problems()) problems.push_back({.connection = RUNG_NONE, .text = text});
     return problems;
   }
-  uint32_t keptSize() override { return devices_.keptSize(); }
-  void copyKept(std::span<uint8_t> image) noexcept override { devices_.copyKept(image); }
-  void restoreKept(std::span<const uint8_t> image) override { devices_.restoreKept(image); }
+  uint32_t retainedSize() override { return devices_.retainedSize(); }
+  void copyRetained(std::span<uint8_t> image) noexcept override { devices_.copyRetained(image); }
+  void restoreRetained(std::span<const uint8_t> image) override { devices_.restoreRetained(image); }
 
   // Shared variables can be found by their names, too; screens write only inputs (man. l.13609).
   std::optional<runtime::Ref> readPlace(const rung_program& program, std::string_view name) const override {

@@ -178,7 +178,7 @@ uint32_t contentBytes(const PlcTable& table) {
   return static_cast<uint32_t>(table.bytes.size() + table.texts.size()); // all tables have at most 2^25
 }
 
-uint32_t keptBytes(const PlcTable& table) { return static_cast<uint32_t>(sizeof(TableHead)) + contentBytes(table); }
+uint32_t retainedBytes(const PlcTable& table) { return static_cast<uint32_t>(sizeof(TableHead)) + contentBytes(table); }
 
 void append(std::span<uint8_t>& to, const void* from, size_t size) {
   if (size > 0) std::memcpy(to.data(), from, size);
@@ -212,15 +212,15 @@ void restore(PlcTable& table, const TableHead& head, const uint8_t* bytes) {
 
 } // namespace
 
-uint32_t PlcTables::keptSize() const noexcept {
+uint32_t PlcTables::retainedSize() const noexcept {
   uint32_t size = 0;
   for (const auto& table : tables_)
-    if (table) size += keptBytes(*table);
+    if (table) size += retainedBytes(*table);
   return size == 0 ? 0 : size + static_cast<uint32_t>(sizeof kMagic);
 }
 
-void PlcTables::copyKept(std::span<uint8_t> image) const noexcept {
-  if (image.empty() || image.size() != keptSize()) return;
+void PlcTables::copyRetained(std::span<uint8_t> image) const noexcept {
+  if (image.empty() || image.size() != retainedSize()) return;
   append(image, &kMagic, sizeof kMagic);
   for (uint32_t i = 0; i < kTables; ++i) {
     if (!exists(i)) continue;
@@ -232,7 +232,7 @@ void PlcTables::copyKept(std::span<uint8_t> image) const noexcept {
   }
 }
 
-bool PlcTables::restoreKept(std::span<const uint8_t> image) noexcept {
+bool PlcTables::restoreRetained(std::span<const uint8_t> image) noexcept {
   forgetChanges();
   if (image.empty()) return true;
   if (image.size() < sizeof kMagic || std::memcmp(image.data(), &kMagic, sizeof kMagic) != 0) return false;

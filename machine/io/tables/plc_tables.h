@@ -98,11 +98,11 @@ public:
 
   // All contents and selected lines, as an image for this process or the same machine. Only `load` and `remove` change
   // its size; copying allocates nothing.
-  uint32_t keptSize() const noexcept;
-  void copyKept(std::span<uint8_t> image) const noexcept;
+  uint32_t retainedSize() const noexcept;
+  void copyRetained(std::span<uint8_t> image) const noexcept;
   // Restores the contents of an image and clears the marks of changes. Returns false if it is not an image, or if some
   // tables were loaded from other files since; these stay unchanged. An empty image changes no contents.
-  bool restoreKept(std::span<const uint8_t> image) noexcept;
+  bool restoreRetained(std::span<const uint8_t> image) noexcept;
   // Power-up: clears the marks of changes.
   void forgetChanges() noexcept;
 

@@ -66,14 +66,14 @@ void SimulatedDevices::loadTables() {
   if (hasTables_) tableProblem_ = files_.load(tables_);
 }
 
-uint32_t SimulatedDevices::keptSize() {
+uint32_t SimulatedDevices::retainedSize() {
   if (!tablesLoaded_) loadTables();
-  return tables_.keptSize();
+  return tables_.retainedSize();
 }
 
-void SimulatedDevices::restoreKept(std::span<const uint8_t> image) {
+void SimulatedDevices::restoreRetained(std::span<const uint8_t> image) {
   loadTables();
-  tablesRestored_ = tables_.restoreKept(image);
+  tablesRestored_ = tables_.restoreRetained(image);
 }
 
 // Tables are stored at each change, so a warm start finds them unchanged (inventory of the services, 15.5).

@@ -77,10 +77,10 @@ public:
   // Returns "", or the error.
   std::string expectSent(std::string_view port, std::span<const NcArgument> keys);
 
-  // The tables as the control stores them (SimulatedNc::keptSize).
-  uint32_t keptSize();
-  void copyKept(std::span<uint8_t> image) const noexcept { tables_.copyKept(image); }
-  void restoreKept(std::span<const uint8_t> image);
+  // The tables as the control stores them (SimulatedNc::retainedSize).
+  uint32_t retainedSize();
+  void copyRetained(std::span<uint8_t> image) const noexcept { tables_.copyRetained(image); }
+  void restoreRetained(std::span<const uint8_t> image);
 
 private:
   // An event: its keys, which are checked before it acts, and its action, which returns "", or the error.

@@ -26,7 +26,7 @@ TEST(TablesNoAllocation, PlcTables) {
   test::loadMaterials(tables);
   const std::string text(2000, 'x');
   const std::array<uint8_t, 300> bytes{};
-  std::vector<uint8_t> image(tables.keptSize());
+  std::vector<uint8_t> image(tables.retainedSize());
   int errors = 0;
   const auto count = [&](TableError error) { errors += error == TableError::None ? 0 : 1; };
   const auto tick = [&](int i) {
@@ -46,14 +46,14 @@ TEST(TablesNoAllocation, PlcTables) {
           tables.select(0, line), tables.selectedLine(0, number), tables.takeChange(0, change),
           tables.lineCount(0, number), tables.getInt(1, 0, 0, integer), tables.getInt(0, 0, 0, integer)})
       count(error);
-    if (i % 1000 == 0) tables.copyKept(image);
+    if (i % 1000 == 0) tables.copyRetained(image);
   };
   EXPECT_EQ(allocationsOf([&] {
               for (int i = 0; i < kTicks; ++i) tick(i);
             }),
             0);
   EXPECT_GT(errors, 2 * kTicks);
-  EXPECT_EQ(allocationsOf([&] { EXPECT_TRUE(tables.restoreKept(image)); }), 0);
+  EXPECT_EQ(allocationsOf([&] { EXPECT_TRUE(tables.restoreRetained(image)); }), 0);
 }
 
 void ticksOf(SharedAreas& areas) {

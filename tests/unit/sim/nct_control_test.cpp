@@ -302,7 +302,7 @@ TEST_F(NctKept, KilledWhileWriting) {
 
 TEST(NctControlScripted, KeepsNoTables) {
   const std::unique_ptr<SimulatedNc> model = makeSimulatedNct();
-  EXPECT_EQ(model->keptSize(), 0u);
+  EXPECT_EQ(model->retainedSize(), 0u);
 }
 
 } // namespace

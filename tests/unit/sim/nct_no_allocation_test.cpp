@@ -24,7 +24,7 @@ TEST(NctNoAllocation, Scans) {
   for (const char* signal : {"AP_PLCR", "AP_GOR", "SP_SEN", "SP_SSTRT", "SP_PAR", "AP_SYNCR,#1", "DP_ENA2"})
     machine.set(signal, 1);
   machine.scan(3);
-  std::vector<uint8_t> image(machine.nc().keptSize());
+  std::vector<uint8_t> image(machine.nc().retainedSize());
   const std::vector<std::pair<bool, std::vector<int32_t>>> requests = {{true, {11, 3, 0, 4000, 1024}},
                                                                        {false, {10, 3, 0, 4000, 1024}},
                                                                        {true, {34, 3, 1209, 0, 1}},
@@ -51,7 +51,7 @@ TEST(NctNoAllocation, Scans) {
       machine.request(write, words[0], operands);
       machine.scan(3);
       machine.machine().fast();
-      machine.nc().copyKept(image);
+      machine.nc().copyRetained(image);
     });
     EXPECT_EQ(count, 0) << "function " << words[0];
   }

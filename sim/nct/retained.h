@@ -1,5 +1,5 @@
-// The non-volatile state of the simulated NC: each topic names its fields once, in `keep`, and a Kept measures, saves
-// or restores them. The image has a fixed size, so that saving allocates nothing.
+// The non-volatile state of the simulated NC: each topic names its fields once, in `retain`, and a Retained measures,
+// saves or restores them. The image has a fixed size, so that saving allocates nothing.
 #pragma once
 #include <cstdint>
 #include <cstring>
@@ -8,15 +8,15 @@
 
 namespace rung::sim::nct {
 
-class Kept {
+class Retained {
 public:
   enum class Mode : uint8_t { Measure, Save, Restore };
 
-  static Kept measure() { return Kept(Mode::Measure, {}); }
-  static Kept save(std::span<uint8_t> image) { return Kept(Mode::Save, image); }
+  static Retained measure() { return Retained(Mode::Measure, {}); }
+  static Retained save(std::span<uint8_t> image) { return Retained(Mode::Save, image); }
   // Does not write to `image`.
-  static Kept restore(std::span<const uint8_t> image) {
-    return Kept(Mode::Restore, {const_cast<uint8_t*>(image.data()), image.size()});
+  static Retained restore(std::span<const uint8_t> image) {
+    return Retained(Mode::Restore, {const_cast<uint8_t*>(image.data()), image.size()});
   }
 
   bool restoring() const { return mode_ == Mode::Restore; }
@@ -35,7 +35,7 @@ public:
   }
 
 private:
-  Kept(Mode mode, std::span<uint8_t> image) : mode_(mode), image_(image) {}
+  Retained(Mode mode, std::span<uint8_t> image) : mode_(mode), image_(image) {}
 
   void bytes(void* data, size_t size) {
     if (mode_ != Mode::Measure && at_ + size <= image_.size() && size != 0) {

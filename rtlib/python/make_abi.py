@@ -34,7 +34,7 @@ def constants(text):
 
 def enums(text):
     """{name: [(member, value)]}; every member in the header has an explicit value."""
-    return {name: [tuple(member.split(" = ")) for member in split(body, ",")]
+    return {name: [tuple(re.split(r"\s*=\s*", member)) for member in split(body, ",")]
             for name, body in re.findall(r"\benum (rung_\w+) \{(.*?)\}", text, re.DOTALL)}
 
 

@@ -182,8 +182,7 @@ RUNG_API int32_t rung_instance_free(rung_instance* instance);
 
 enum rung_power {
   RUNG_COLD = 0, /* memory as in a new machine */
-  RUNG_WARM =
-      1, /* retained memory keeps its contents: those on disk (rung_instance_keep), else those of the instance */
+  RUNG_WARM = 1, /* retained memory keeps its contents: from disk (rung_instance_keep), else those of the instance */
 };
 
 /* Switches the program on, or off and on again, also after a fault. Bound variables and blocks that the program writes

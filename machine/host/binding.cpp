@@ -237,7 +237,7 @@ private:
   std::string dialect() const { return program_.dialect; }
 
   bool supports(uint32_t channel, uint32_t kind, uint32_t code = 0) const {
-    return rung_instance_carries_function(instance_, channel, static_cast<int32_t>(kind), code) == RUNG_OK;
+    return rung_instance_supports_function(instance_, channel, static_cast<int32_t>(kind), code) == RUNG_OK;
   }
   // Whether the channel supports at least one kind.
   bool hasChannel(uint32_t channel) const {

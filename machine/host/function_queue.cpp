@@ -29,7 +29,7 @@ FunctionState FunctionQueue::state() const noexcept {
                        .channel = send.channel,
                        .code = call.code,
                        .ageNs = call.ageNs,
-                       .begun = call.line.has_value(),
+                       .begun = call.handle.has_value(),
                        .late = isLate(call)};
   }
   return state;
@@ -63,7 +63,7 @@ FunctionQueue::Call FunctionQueue::callOf(uint32_t send, const Pins& pins) const
 
 bool FunctionQueue::queue(Call call) noexcept {
   const Send& send = sends_[call.send];
-  const bool isCarried = rung_instance_carries_function(instance_, send.channel, send.kind, call.code) == RUNG_OK;
+  const bool isCarried = rung_instance_supports_function(instance_, send.channel, send.kind, call.code) == RUNG_OK;
   const bool hasRoom = count_ < kRoom;
   if (hasRoom && isCarried)
     calls_[count_++] = call;
@@ -102,17 +102,18 @@ void FunctionQueue::start(uint32_t index) noexcept {
   const Send& send = sends_[call.send];
   const auto overtakes = [&](const Call& older) {
     const Send& before = sends_[older.send];
-    return !older.line && before.kind == send.kind && before.channel == send.channel;
+    return !older.handle && before.kind == send.kind && before.channel == send.channel;
   };
-  if (call.line || std::any_of(calls_.begin(), calls_.begin() + index, overtakes)) return;
-  uint32_t line = 0;
-  if (rung_instance_begin_function(instance_, send.channel, send.kind, call.code, &line) == RUNG_OK) call.line = line;
+  if (call.handle || std::any_of(calls_.begin(), calls_.begin() + index, overtakes)) return;
+  uint32_t handle = 0;
+  if (rung_instance_begin_function(instance_, send.channel, send.kind, call.code, &handle) == RUNG_OK)
+    call.handle = handle;
 }
 
 // The acknowledge is only set if the cause is still present, not for a later cause on the same pin.
 bool FunctionQueue::finish(const Call& call, Pins& pins) const noexcept {
   const Send& send = sends_[call.send];
-  if (!call.line || rung_instance_function_done(instance_, send.channel, *call.line) != RUNG_OK) return false;
+  if (!call.handle || rung_instance_function_done(instance_, send.channel, *call.handle) != RUNG_OK) return false;
   if (send.donePin && call.wanted) pins.set(*send.donePin, {.bit = true});
   return true;
 }

@@ -65,8 +65,8 @@ private:
     uint32_t send = 0;
     uint32_t code = 0;
     int64_t ageNs = 0;
-    bool wanted = true;           // the pin still has the level that caused the function
-    std::optional<uint32_t> line; // handle of the handshake, once it has begun
+    bool wanted = true;             // the pin still has the level that caused the function
+    std::optional<uint32_t> handle; // handle of the handshake, once it has begun
   };
 
   bool triggered(const Edge& edge, const Pins& pins) const noexcept { return pins[edge.pin].bit == edge.rising; }

@@ -157,7 +157,7 @@ private:
   }
 
   bool supports(rung_function_kind kind) const {
-    return rung_instance_carries_function(instance_, 0, kind, 0) == RUNG_OK;
+    return rung_instance_supports_function(instance_, 0, kind, 0) == RUNG_OK;
   }
 
   std::string functions() const {

@@ -135,25 +135,25 @@ int32_t rung_instance_answer(rung_instance* instance, const rung_reply* reply) {
 }
 
 int32_t rung_instance_begin_function(rung_instance* instance, uint32_t channel, int32_t kind, uint32_t code,
-                                     uint32_t* line) {
+                                     uint32_t* function) {
   const Call call(instance, When::On);
   if (!call.ok()) return call.status();
-  if (line == nullptr) return fail(RUNG_BAD_ARGUMENT, "the pointer that receives the line of a function is null");
+  if (function == nullptr) return fail(RUNG_BAD_ARGUMENT, "the pointer that receives the handle of a function is null");
   if (const int32_t status = checkFunction(*call, channel, kind, code); status != RUNG_OK) return status;
   const auto of = static_cast<nc::FunctionKind>(kind);
   const std::optional<uint32_t> started = functionsOf(*call, channel)->start(of, code);
   if (!started) return RUNG_LATER;
   call->functionChannels |= 1u << channel;
-  *line = *started;
+  *function = *started;
   return RUNG_OK;
 }
 
-int32_t rung_instance_function_done(rung_instance* instance, uint32_t channel, uint32_t line) {
+int32_t rung_instance_function_done(rung_instance* instance, uint32_t channel, uint32_t function) {
   const Call call(instance, When::On);
   if (!call.ok()) return call.status();
   nc::Functions* functions = functionsOf(*call, channel);
   if (functions == nullptr) return failChannel(channel);
-  return functions->busy(line) ? RUNG_LATER : RUNG_OK;
+  return functions->busy(function) ? RUNG_LATER : RUNG_OK;
 }
 
 int32_t rung_instance_abort_functions(rung_instance* instance, uint32_t channel) {
@@ -165,7 +165,7 @@ int32_t rung_instance_abort_functions(rung_instance* instance, uint32_t channel)
   return RUNG_OK;
 }
 
-int32_t rung_instance_carries_function(const rung_instance* instance, uint32_t channel, int32_t kind, uint32_t code) {
+int32_t rung_instance_supports_function(const rung_instance* instance, uint32_t channel, int32_t kind, uint32_t code) {
   const Call call(instance);
   return call.ok() ? checkFunction(*call, channel, kind, code) : call.status();
 }

@@ -765,23 +765,23 @@ class Instance(_Closing):
         """Starts a function, M, S, T or B, of a channel (from 0). Returns its handle, for function_done; None: the
         signals that it needs are in use, try again after the next slice. Error: NOT_FOUND, the control has no such
         channel or no signals for it; WRONG_STATE, the program is off."""
-        line = c_uint32()
-        status = _call(_library.rung_instance_begin_function, self, channel, kind, code, byref(line))
-        return None if status == Status.LATER else line.value
+        function = c_uint32()
+        status = _call(_library.rung_instance_begin_function, self, channel, kind, code, byref(function))
+        return None if status == Status.LATER else function.value
 
-    def function_done(self, channel, line):
+    def function_done(self, channel, function):
         """Whether the program has finished the function with this handle of begin_function. Error: NOT_FOUND, no such
         channel."""
-        return _call(_library.rung_instance_function_done, self, channel, line) != Status.LATER
+        return _call(_library.rung_instance_function_done, self, channel, function) != Status.LATER
 
     def abort_functions(self, channel):
         """Reset, emergency stop: functions under way in the channel end at once. Error: NOT_FOUND, no such channel."""
         _call(_library.rung_instance_abort_functions, self, channel)
 
-    def carries_function(self, channel, kind, code):
+    def supports_function(self, channel, kind, code):
         """Whether the dialect has signals for this function in the channel."""
         try:
-            _call(_library.rung_instance_carries_function, self, channel, kind, code)
+            _call(_library.rung_instance_supports_function, self, channel, kind, code)
         except Error as error:
             if error.status != Status.NOT_FOUND:
                 raise

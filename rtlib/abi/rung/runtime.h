@@ -536,19 +536,19 @@ enum rung_function_kind {
   RUNG_FUNCTION_KEY = 5 /* a key of the panel or the screen: it is pressed and released */
 };
 
-/* Starts a function of a channel (from 0) by the handshake of the dialect; `line` is its handle until it is finished.
- * RUNG_LATER: the signals that it needs are in use; RUNG_NOT_FOUND: the control has no such channel, or no signals for
- * this function. [rt] */
+/* Starts a function of a channel (from 0) by the handshake of the dialect; `function` is its handle until it is
+ * finished. RUNG_LATER: the signals that it needs are in use; RUNG_NOT_FOUND: the control has no such channel, or no
+ * signals for this function. [rt] */
 RUNG_API int32_t rung_instance_begin_function(rung_instance* instance, uint32_t channel, int32_t kind, uint32_t code,
-                                              uint32_t* line);
+                                              uint32_t* function);
 /* RUNG_OK: the program has finished it; RUNG_LATER: not yet. [rt] */
-RUNG_API int32_t rung_instance_function_done(rung_instance* instance, uint32_t channel, uint32_t line);
+RUNG_API int32_t rung_instance_function_done(rung_instance* instance, uint32_t channel, uint32_t function);
 /* Reset, emergency stop: functions under way in the channel end at once, without an answer. [rt] */
 RUNG_API int32_t rung_instance_abort_functions(rung_instance* instance, uint32_t channel);
 
 /* Whether the dialect has signals for this function in the channel. RUNG_NOT_FOUND: no. [rt] */
-RUNG_API int32_t rung_instance_carries_function(const rung_instance* instance, uint32_t channel, int32_t kind,
-                                                uint32_t code);
+RUNG_API int32_t rung_instance_supports_function(const rung_instance* instance, uint32_t channel, int32_t kind,
+                                                 uint32_t code);
 /* Assigns this M function to a group, from now on. RUNG_NOT_FOUND: the dialect has no such group, or the group of the
  * function is fixed. */
 RUNG_API int32_t rung_instance_group_function(rung_instance* instance, uint32_t channel, uint32_t code, uint32_t group);

@@ -270,15 +270,15 @@ public:
   int32_t answer(const rung_reply& reply) noexcept { return rung_instance_answer(handle(), &reply); }
 
   // Functions of a part program; channels count from 0.
-  int32_t beginFunction(uint32_t channel, rung_function_kind kind, uint32_t code, uint32_t& line) noexcept {
-    return rung_instance_begin_function(handle(), channel, kind, code, &line);
+  int32_t beginFunction(uint32_t channel, rung_function_kind kind, uint32_t code, uint32_t& function) noexcept {
+    return rung_instance_begin_function(handle(), channel, kind, code, &function);
   }
-  int32_t functionDone(uint32_t channel, uint32_t line) noexcept {
-    return rung_instance_function_done(handle(), channel, line);
+  int32_t functionDone(uint32_t channel, uint32_t function) noexcept {
+    return rung_instance_function_done(handle(), channel, function);
   }
   int32_t abortFunctions(uint32_t channel) noexcept { return rung_instance_abort_functions(handle(), channel); }
-  bool carriesFunction(uint32_t channel, rung_function_kind kind, uint32_t code) const noexcept {
-    return rung_instance_carries_function(handle(), channel, kind, code) == RUNG_OK;
+  bool supportsFunction(uint32_t channel, rung_function_kind kind, uint32_t code) const noexcept {
+    return rung_instance_supports_function(handle(), channel, kind, code) == RUNG_OK;
   }
   void groupFunction(uint32_t channel, uint32_t code, uint32_t group) {
     check(rung_instance_group_function(handle(), channel, code, group));

@@ -42,7 +42,7 @@ public:
   // Continues the handshakes; to be called before every slice of the program.
   virtual void step() = 0;
   // Whether the program has not finished the function with this handle; false if there is no such function.
-  virtual bool busy(uint32_t line) const = 0;
+  virtual bool busy(uint32_t handle) const = 0;
   // Reset, emergency stop: functions under way end at once, without an answer.
   virtual void abort() = 0;
 };

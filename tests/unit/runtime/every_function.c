@@ -75,7 +75,7 @@ static void instances(rung_instance* plc) {
   BAD_HANDLE(rung_instance_begin_function(plc, 0, RUNG_FUNCTION_M, 3, &line));
   BAD_HANDLE(rung_instance_function_done(plc, 0, 0));
   BAD_HANDLE(rung_instance_abort_functions(plc, 0));
-  BAD_HANDLE(rung_instance_carries_function(plc, 0, RUNG_FUNCTION_M, 3));
+  BAD_HANDLE(rung_instance_supports_function(plc, 0, RUNG_FUNCTION_M, 3));
   BAD_HANDLE(rung_instance_group_function(plc, 0, 3, 1));
   BAD_HANDLE(rung_instance_high_speed_functions(plc, 0));
   BAD_HANDLE(rung_instance_begin_power_off(plc));

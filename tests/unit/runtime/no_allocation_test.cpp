@@ -86,7 +86,7 @@ TEST(RuntimeInRealTime, NeitherAllocatesNorEntersTheKernel) {
       }
       rung_instance_begin_function(p, 0, RUNG_FUNCTION_M, 3, &reply.ticket);
       rung_instance_function_done(p, 0, 0), rung_instance_abort_functions(p, 0);
-      rung_instance_carries_function(p, 0, RUNG_FUNCTION_M, 3);
+      rung_instance_supports_function(p, 0, RUNG_FUNCTION_M, 3);
       rung_instance_replace(p, change.handle());
     }
   };

@@ -64,7 +64,7 @@ struct Dialect {
   std::span<const InstructionInfo* const> instructions;
   const nc::SignalTable& (*signals)();                // signals of the control's interface
   std::span<const std::string_view> shownSpaces = {}; // spaces whose cells the control displays or passes on
-  // Whether a row of `instructions` can be compiled; all others give the diagnostic not-built-yet or service-not-built.
+  // Whether a row of `instructions` can be compiled; all others give the diagnostic not-built-yet.
   bool (*isBuilt)(const InstructionInfo& row);
   // For a dialect with ladders: the row of a box, see ladder::FindBox.
   const InstructionInfo* (*findBox)(std::string_view mnemonic) = nullptr;

@@ -14,7 +14,7 @@
 #include <span>
 
 #include "rtlib/core/memory.h"
-#include "rtlib/core/pass_steps.h"
+#include "rtlib/core/scan_steps.h"
 #include "rung/program.h"
 
 namespace rung::core {

@@ -1,5 +1,5 @@
 // A scan in fewer steps: what is joined. That a runner does the same with them is runner_test.cpp's matter.
-#include "rtlib/core/pass_steps.h"
+#include "rtlib/core/scan_steps.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-// See pass_steps.h.
-#include "rtlib/core/pass_steps.h"
+// See scan_steps.h.
+#include "rtlib/core/scan_steps.h"
 
 namespace rung::core {
 namespace {

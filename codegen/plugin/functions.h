@@ -8,12 +8,12 @@
 namespace rung::codegen {
 
 struct LlvmFunctions {
-  decltype(&emitLlvmIr) irText;
-  decltype(&emitAssembly) assembly;
-  decltype(&buildLlvmSharedObject) sharedObject;
-  decltype(&withSection) withSection;
-  decltype(&sectionOf) sectionOf;
-  decltype(&makeJitCode) jitCode;
+  decltype(&codegen::emitLlvmIr) irText;
+  decltype(&codegen::emitAssembly) assembly;
+  decltype(&codegen::buildLlvmSharedObject) sharedObject;
+  decltype(&codegen::withSection) withSection;
+  decltype(&codegen::sectionOf) sectionOf;
+  decltype(&codegen::makeJitCode) jitCode;
 };
 
 // The plug-in's export. It returns the table of its functions, which stays valid.

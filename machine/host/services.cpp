@@ -2,9 +2,14 @@
 #include "machine/host/services.h"
 
 namespace rung::host {
+namespace {
+
+class NoTranslation final : public Translation {};
+
+} // namespace
 
 const Translation& translationOf(std::string_view dialect) {
-  static constexpr Translation kNone;
+  static constexpr NoTranslation kNone;
   if (dialect == "gsk") return gskTranslation();
   return dialect == "nct" ? nctTranslation() : kNone;
 }

@@ -80,12 +80,10 @@ struct NcAnswer {
   double value = 0; // the value that was read
 };
 
-// Converts requests of a dialect's programs to operations, and outcomes to the dialect's results and errors. This class
-// itself is for a dialect without such requests: it refuses all.
+// Converts requests of a dialect's programs to operations, and outcomes to the dialect's results and errors. The
+// functions here are for a dialect without such requests: they refuse all.
 class Translation {
 public:
-  virtual ~Translation() = default;
-
   // Scan thread, called by rung_instance_options::request: returns an enum rung_answer. If no client serves, or no
   // operation corresponds to the request, the control refuses at once. Allocates nothing.
   virtual int32_t atOnce(const rung_request& request, const Live& live, rung_reply& reply) const noexcept {
@@ -98,6 +96,9 @@ public:
   virtual rung_reply replyOf(const rung_request& request, const NcAnswer& answer) const {
     return {.size = sizeof(rung_reply), .ticket = request.ticket, .error = answer.outcome == Outcome::Done ? 0u : 1u};
   }
+
+protected:
+  ~Translation() = default; // constants alone implement it
 };
 
 // The translation for a rung_program::dialect.

@@ -71,9 +71,9 @@ PairedRungs::PairedRungs(const Version& before, const Version& after, const Form
     return std::string_view(before.module.routines[homeBefore_[rung]].name);
   };
   const auto nameAfter = [&](uint32_t rung) {
-    const uint32_t former = routineBefore_[homeAfter_[rung]];
-    return std::string_view(former != RUNG_NONE ? before.module.routines[former].name
-                                                : after.module.routines[homeAfter_[rung]].name);
+    const uint32_t routine = routineBefore_[homeAfter_[rung]];
+    return std::string_view(routine != RUNG_NONE ? before.module.routines[routine].name
+                                                 : after.module.routines[homeAfter_[rung]].name);
   };
   pairOf_.assign(after_.size(), RUNG_NONE);
   for (const runtime::RungPair& pair : runtime::alignRungs(marksOf(before_, nameBefore), marksOf(after_, nameAfter))) {

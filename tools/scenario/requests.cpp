@@ -489,7 +489,7 @@ Answer answerOf(const ServiceSignature& signature, const core::ServiceRequest& r
   for (const KeyValue& key : results) {
     const int index = signature.result(key.key);
     if (key.key == "error")
-      answer.reply.state = key.value.integer != 0 ? RUNG_SERVICE_ERROR : answer.reply.state;
+      answer.reply.state = key.value.integer != 0 ? uint32_t{RUNG_SERVICE_ERROR} : answer.reply.state;
     else if (index >= 0 && index != signature.dataResult())
       setResult(answer.reply, index,
                 signature.formOfResult(index) == Form::Real ? std::bit_cast<int64_t>(key.value.real)

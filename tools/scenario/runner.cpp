@@ -6,6 +6,8 @@
 #include <optional>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "compiler/configuration.h"
 #include "tools/scenario/compile_step.h"
 #include "tools/scenario/explain.h"

@@ -54,7 +54,7 @@ uint32_t Port::takeState() noexcept {
   const bool sent = sendOverflow_;
   lostSeen_ = lost;
   sendOverflow_ = false;
-  return (hasError() ? kPortError : 0) | (sent ? kSendOverflow : 0) | (received ? kReceiveOverflow : 0);
+  return (hasError() ? kPortError : 0u) | (sent ? kSendOverflow : 0u) | (received ? kReceiveOverflow : 0u);
 }
 
 void Port::dropToSend() noexcept {

@@ -37,8 +37,8 @@ ValueId DeviceRequest::addOperand(uint32_t number, const Operand& operand, Value
     case Operand::Form::Bit: return b.zextOrTrunc(Type::I64, l_.memory.bit(operand));
     case Operand::Form::Cell: {
       const ValueId value = l_.memory.value(operand, guard);
-      const auto* number = std::get_if<NumberKind>(&kindOf(info).takes);
-      const bool isSigned = number != nullptr && number->twosComplement;
+      const auto* taken = std::get_if<NumberKind>(&kindOf(info).takes);
+      const bool isSigned = taken != nullptr && taken->twosComplement;
       return isSigned ? b.sextOrTrunc(Type::I64, value) : b.zextOrTrunc(Type::I64, value);
     }
     default: return b.constant(Type::I64, operand.value);

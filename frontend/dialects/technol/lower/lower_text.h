@@ -34,16 +34,16 @@ void inOwnRung(RoutineBuilder& out, bool isLong, Body body) {
 // next two. Blocks after the end are skipped. Returns the last value.
 template <class Pass>
 ir::ValueId passWhile(ir::RungBuilder& b, uint32_t most, ir::ValueId first, Pass pass) {
-  using State = std::array<ir::ValueId, 2>;
-  const auto run = [&](uint32_t count, ir::ValueId start, const State& state) {
+  using PassState = std::array<ir::ValueId, 2>;
+  const auto run = [&](uint32_t count, ir::ValueId start, const PassState& state) {
     const auto in = b.loop(count, state);
-    const auto out = b.endLoop(State(pass(b.add(start, in[0]), in[1], in[2])));
-    return State{out[0], out[1]};
+    const auto out = b.endLoop(PassState(pass(b.add(start, in[0]), in[1], in[2])));
+    return PassState{out[0], out[1]};
   };
-  const State begin{first, b.bit(true)};
+  const PassState begin{first, b.bit(true)};
   if (most <= 2 * kBlock) return run(most, b.i32(0), begin)[0];
   const auto block = b.loop((most + kBlock - 1) / kBlock, begin);
-  const State state{block[1], block[2]};
+  const PassState state{block[1], block[2]};
   const auto inside = [&] { return run(kBlock, b.mul(block[0], b.i32(kBlock)), state); };
   return b.endLoop(b.choose(state[1], inside, [&] { return state; }))[0];
 }

@@ -111,19 +111,19 @@ void lowerUnary(Lowering& l, std::span<const Operand> o, int operation) {
   const Type type = widthOf(o[0]);
   if (type == Type::F64) {
     const ValueId x = l.r().real();
-    switch (operation) {
+    switch (static_cast<Unary>(operation)) {
     case kIncrement: return l.r().setReal(b.fAdd(x, b.real(1)));
     case kDecrement: return l.r().setReal(b.fSub(x, b.real(1)));
     case kNegate: return l.r().setReal(b.fNeg(x));
-    default: return l.r().setReal(b.fAbs(x));
+    case kAbsolute: return l.r().setReal(b.fAbs(x));
     }
   }
   const ValueId x = l.r().dr(type);
-  switch (operation) {
+  switch (static_cast<Unary>(operation)) {
   case kIncrement: return l.r().setDrPart(b.add(x, b.constant(type, 1)));
   case kDecrement: return l.r().setDrPart(b.sub(x, b.constant(type, 1)));
   case kNegate: return l.r().setDrPart(b.neg(x));
-  default: return l.r().setDrPart(b.select(b.ltS(x, b.constant(type, 0)), b.neg(x), x));
+  case kAbsolute: return l.r().setDrPart(b.select(b.ltS(x, b.constant(type, 0)), b.neg(x), x));
   }
 }
 

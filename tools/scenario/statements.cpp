@@ -296,6 +296,13 @@ constexpr bool isComplete(const StatementInfo& info) {
 
 const StatementInfo& StatementInfo::of(Kind kind) {
   static_assert(std::ranges::all_of(kRows, isComplete), "a row of statements.def lacks something");
+  const auto counts = [](const StatementInfo& info) {
+    return info.advances == Advance::Scans || info.advances == Advance::Parts;
+  };
+  static_assert(
+      std::ranges::all_of(
+          kRows, [&](const StatementInfo& info) { return counts(info) == (info.parse == &LineParser::count); }),
+      "the prompt records an interrupted statement as its word and the count that was reached");
   return kRows[static_cast<size_t>(kind)];
 }
 

@@ -56,7 +56,8 @@ private:
   SourcePos sourcePos(text::Position at) const {
     const uint32_t line = std::clamp<uint32_t>(at.line, 1, sources_.lineCount(fileId_));
     const std::string_view text = sources_.lineText(fileId_, line);
-    size_t offset = 0;
+    // The parser's columns do not count the mark.
+    size_t offset = text.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0;
     for (uint32_t column = 1; column < at.column && offset < text.size(); ++column)
       offset += decodeUtf8(text, offset).length;
     return sources_.position(fileId_, static_cast<size_t>(text.data() - sources_.text(fileId_).data()) + offset);

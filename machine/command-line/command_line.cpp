@@ -13,6 +13,8 @@
 #include <system_error>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "rtlib/text/version.h"
 
 namespace rung::cli {
@@ -71,7 +73,16 @@ Option Option::oneOf(std::vector<std::string> choices) {
 Option Option::between(int least, int most) { return Option(option_->check(CLI::Range(least, most))); }
 Option Option::between(unsigned least, unsigned most) { return Option(option_->check(CLI::Range(least, most))); }
 Option Option::between(uint64_t least, uint64_t most) { return Option(option_->check(CLI::Range(least, most))); }
-Option Option::between(double least, double most) { return Option(option_->check(CLI::Range(least, most))); }
+Option Option::between(double least, double most) {
+  const std::string range = fmt::format("FLOAT in [{} - {}]", least, most);
+  // CLI::Range accepts "nan", which is neither below nor above.
+  const auto check = [least, most, range](const std::string& text) {
+    double value = 0;
+    const bool isInside = CLI::detail::lexical_cast(text, value) && value >= least && value <= most;
+    return isInside ? "" : fmt::format("Value {} is not a {}", text, range);
+  };
+  return Option(option_->check(check, range));
+}
 Option Option::excludes(Option other) { return Option(option_->excludes(other.option_)); }
 Option Option::needs(Option other) { return Option(option_->needs(other.option_)); }
 Option Option::oneValue() { return Option(option_->allow_extra_args(false)); }

@@ -181,10 +181,16 @@ private:
   }
   bool takeProtected(const toml::node& node, File& map) {
     const toml::array* list = node.as_array();
-    return list != nullptr && std::ranges::all_of(*list, [&](const toml::node& element) {
-             map.protectedCells.push_back({text::stringOf(element), positionOf(element)});
-             return !map.protectedCells.back().name.empty();
-           });
+    if (list == nullptr) return false;
+    for (const toml::node& element : *list) {
+      const std::string name = text::stringOf(element);
+      if (!name.empty())
+        map.protectedCells.push_back({name, positionOf(element)});
+      else
+        fail(positionOf(element), "rungctl.protected: found " + text::textOf(element) +
+                                      " in the list, expected a name of the program; write for example \"X0.0\"");
+    }
+    return true;
   }
 
   template <size_t N>

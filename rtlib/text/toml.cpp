@@ -1,11 +1,14 @@
 // See toml.h.
 #include "rtlib/text/toml.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <iterator>
 
+#include "rtlib/text/controls.h"
 #include "rtlib/text/end_of_file.h"
+#include "rtlib/text/utf8.h"
 
 namespace rung::text {
 namespace {
@@ -50,10 +53,30 @@ Refused findRefused(std::string_view text) {
   return {};
 }
 
+constexpr const char* kControl = "a key or a text holds a control character, which names, paths and messages cannot";
+
+bool isRefused(char c) { return isControl(c) && c != '\t' && c != '\n' && c != '\r'; }
+
+// The first key or text, in the order of the tables, that has a control character by an escape such as \u0000; null:
+// none.
+const toml::source_region* findControl(const toml::node& node) {
+  if (const auto* text = node.as_string())
+    return std::ranges::any_of(text->get(), isRefused) ? &node.source() : nullptr;
+  if (const toml::array* list = node.as_array())
+    for (const toml::node& element : *list)
+      if (const toml::source_region* found = findControl(element)) return found;
+  if (const toml::table* table = node.as_table())
+    for (const auto& [key, value] : *table) {
+      if (std::ranges::any_of(key.str(), isRefused)) return &key.source();
+      if (const toml::source_region* found = findControl(value)) return found;
+    }
+  return nullptr;
+}
+
 toml::source_region regionAt(std::string_view text, size_t offset) {
   toml::source_position place{1, 1};
   for (const char c : text.substr(0, offset)) {
-    ++place.column;
+    if (!isUtf8Continuation(c)) ++place.column;
     if (c == '\n') place = {place.line + 1, 1};
   }
   return {place, place, nullptr};
@@ -115,7 +138,11 @@ std::optional<toml::table> TomlReading::parse(std::string_view text) {
     return std::nullopt;
   }
   try {
-    return toml::parse(text);
+    toml::table table = toml::parse(text);
+    const toml::source_region* control = findControl(table);
+    if (control == nullptr) return table;
+    notToml(*control, kControl);
+    return std::nullopt;
   } catch (const toml::parse_error& error) {
     notToml(error.source(), error.description());
     return std::nullopt;

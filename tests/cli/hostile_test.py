@@ -54,10 +54,11 @@ class Hostile(unittest.TestCase):
                               stdin=subprocess.DEVNULL)
         return done.returncode, done.stdout + done.stderr
 
-    def expect_error(self, words, status, text):
+    def expect_error(self, words, status, *texts):
         found, said = self.rungc(*words)
         self.assertEqual(found, status, said[:2000])
-        self.assertIn(text, said[:20000])
+        for text in texts:
+            self.assertIn(text, said[:20000])
 
     # ---- what is no file
 
@@ -110,6 +111,15 @@ class Hostile(unittest.TestCase):
         good = self.file("good.map", '[in]\na = { type = "bit", name = "A" } # "..." ' + "." * 100 + "\nb = { type = 'bit', name = \"A\\u002e" + "." * 100 + '" }\n')
         found, said = self.rungc("map", program, "--check", good)
         self.assertEqual((found, said.count("good.map:")), (WRONG, 1), said)
+
+    def test_control_characters_in_toml(self):
+        program = self.technol("good.plc", " LDR A\n WR B\n")
+        for text in ('[in]\na = { type = "bit", name = "A\\u0000.1" }\n', '[in]\n"a\\u0000b" = { type = "bit", name = "A" }\n', 'x = [["\\u001b"]]\n'):
+            with self.subTest(text):
+                line = text.count("\n")
+                self.expect_error(["map", "--no-project", program, "--check", self.file("base.map", text)], WRONG, f"base.map:{line}:", "holds a control character")
+                self.expect_error(["check", self.file("rung.toml", text)], WRONG, f"rung.toml:{line}:", "holds a control character")
+        (self.home / "rung.toml").unlink()
 
     def test_numbers_with_a_comment_inside(self):
         program = self.technol("good.plc", " LDR A\n WR B\n")

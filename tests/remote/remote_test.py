@@ -453,6 +453,8 @@ class Commands(Host):
     def test_a_trace_of_a_program_that_does_not_run_ends_too(self):
         self.ctl("set", "X0.1", "true")
         self.wait(lambda: "stopped by a fault" in self.ctl("status"))
+        for time in ("nan", "0", "-1", "1e9"):
+            self.assertIn("0.001", self.ctl("trace", "X0.3", "-o", self.home / "none.vcd", "--for", time, status=USAGE))
         self.assertIn(": 1 scan\n", self.ctl("trace", "X0.3", "-o", self.home / "none.vcd", "--for", "0.3"))
 
     def test_an_interrupted_trace_has_all_that_came_before(self):

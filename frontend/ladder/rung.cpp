@@ -1,4 +1,4 @@
-// Rungs: their text form, the order of their elements, the rules of all dialects, pins.
+// Operations on rungs: text dump, evaluation order of the elements, rules common to all dialects, pin checks.
 #include "frontend/ladder/rung.h"
 
 #include <fmt/format.h>
@@ -15,7 +15,7 @@
 
 namespace rung::frontend::ladder {
 
-// The text form of a rung's elements and nets, for tests and for looking at.
+// Text dump of a rung's elements and nets, for tests and debugging.
 
 std::string elementText(const Element& element, std::span<const Word> operands) {
   const std::string_view edge(&element.edge, element.edge != 0 ? 1 : 0);
@@ -60,10 +60,10 @@ namespace {
 
 using Work = std::priority_queue<uint32_t, std::vector<uint32_t>, std::greater<>>;
 
-/// Kahn's algorithm; among ready elements the one that comes first in the text, that is the upper line, then the left
-/// one. Elements of a loop never become ready and are missing in the result.
+/// Kahn's algorithm. Among the ready elements the first one in the text is taken: the upper line, then the leftmost.
+/// Elements of a loop never become ready and are missing from the result.
 std::vector<uint32_t> evaluationOrder(const Rung& rung) {
-  std::vector<uint32_t> waiting(rung.elements.size(), 0); // inputs without power's source known
+  std::vector<uint32_t> waiting(rung.elements.size(), 0); // inputs whose power source is not yet placed
   std::vector<uint32_t> drivers(rung.nets.size());
   for (uint32_t n = 0; n < rung.nets.size(); ++n) drivers[n] = rung.nets[n].drivers.count;
   Work ready;
@@ -86,8 +86,7 @@ std::vector<uint32_t> evaluationOrder(const Rung& rung) {
   return order;
 }
 
-/// One element of a loop: from any element that was left over, go back to a driver that was left over until one
-/// repeats.
+/// Returns one element of a loop: from any unplaced element, follow unplaced drivers until one repeats.
 ElementId findLoop(const Rung& rung, const std::vector<uint32_t>& order) {
   std::vector<bool> placed(rung.elements.size(), false);
   for (const uint32_t e : order) placed[e] = true;
@@ -105,7 +104,7 @@ ElementId findLoop(const Rung& rung, const std::vector<uint32_t>& order) {
     seen[at] = true;
     at = leftOverDriver(at);
   }
-  // Of the loop, the rightmost element is most likely the one that was drawn backwards.
+  // The rightmost element of the loop is most likely the one that was drawn backwards.
   uint32_t rightmost = at;
   for (uint32_t e = leftOverDriver(at); e != at; e = leftOverDriver(e)) {
     if (rung.elements[e].column > rung.elements[rightmost].column) rightmost = e;
@@ -153,7 +152,7 @@ void orderElements(Rung& rung, Diagnostics& diagnostics) {
   linkNets(rung);
 }
 
-// What holds of the nets of every rung: power comes from the left rail and leads to an element.
+// Rules for the nets of every rung: power comes from the left rail and leads to an element.
 
 namespace {
 
@@ -193,7 +192,7 @@ bool checkClosed(const Rung& rung, Diagnostics& diagnostics) {
   return good;
 }
 
-// Pins against rows.
+// Checks the drawn pins against the instruction table.
 
 namespace {
 
@@ -201,7 +200,7 @@ bool hasName(std::span<const Pin> pins, std::string_view name, SameName same) {
   return std::ranges::any_of(pins, [&](const Pin& pin) { return same(pin.name, name); });
 }
 
-// All of one box at once.
+// Reports all missing pins of one box in a single message.
 void reportMissing(const frontend::InstructionInfo& info, std::span<const std::string_view> pins, SourceRange box,
                    Diagnostics& diagnostics) {
   std::string names(pins.size() == 1 ? "pin" : "pins");
@@ -222,13 +221,13 @@ bool isMisplaced(const frontend::InstructionInfo& info, const Pin& pin) {
   return false;
 }
 
-// A pin that is left out is not the next one drawn wrongly.
+// A pin that is left out must not make the next one look misdrawn.
 bool checkPins(const frontend::InstructionInfo& info, std::span<const Pin> drawn, SourceRange box, SameName same,
                Diagnostics& diagnostics) {
   const auto known = info.pins.all();
   std::vector<std::string_view> missing;
   bool good = true;
-  size_t next = 1; // the first has the mnemonic
+  size_t next = 1; // the first pin is the line with the mnemonic
   for (size_t i = 1; i < drawn.size(); ++i, ++next) {
     const auto isDrawn = [&](const frontend::PinInfo& pin) { return same(drawn[i].name, pin.name); };
     const bool isLater = std::ranges::any_of(known.subspan(std::min(next, known.size())), isDrawn);

@@ -1,4 +1,4 @@
-// Names and places of a program's text.
+// Names and source ranges of a program (see analysis.h).
 #include "frontend/sema/analysis.h"
 
 namespace rung::frontend {
@@ -8,7 +8,7 @@ void Analysis::settle() {
     if (definitions_[i].range.valid()) declared_.add({definitions_[i].range, i});
   declared_.settle(false);
   operands_.settle(false);
-  // Of operands that a check reads twice.
+  // Some checks read an operand twice: duplicates are removed.
   names_.settle(true);
   targets_.settle(true);
   instructions_.settle(true);

@@ -1,4 +1,4 @@
-// Cycles of calls (see call_graph.h).
+// Call cycles (see call_graph.h).
 #include "frontend/sema/call_graph.h"
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 namespace rung::frontend {
 namespace {
 
-// Depth first, without a deep stack.
+// Depth-first search with an explicit stack, so that deep call chains cannot overflow the thread's stack.
 class Walk {
 public:
   Walk(const CallGraph& graph, size_t routines) : graph_(graph), state_(routines, State::Unseen) {}
@@ -29,7 +29,7 @@ private:
     path_.emplace_back(routine, 0);
   }
 
-  // The next call of the innermost routine.
+  // Visits the next call of the innermost routine.
   void step() {
     auto& [routine, next] = path_.back();
     const std::span<const CallGraph::Call> calls = graph_.of(routine);
@@ -54,7 +54,7 @@ private:
 
   const CallGraph& graph_;
   std::vector<State> state_;
-  std::vector<std::pair<uint32_t, size_t>> path_; // routines under way, and which of its calls comes next
+  std::vector<std::pair<uint32_t, size_t>> path_; // open routines, each with the index of its next call
   CallGraph::Order order_;
 };
 

@@ -14,7 +14,7 @@ namespace rung::frontend {
 namespace {
 
 struct TimeUnit {
-  std::string_view text; // in capitals; one that another begins with comes after it
+  std::string_view text; // in capitals; a unit that is a prefix of another comes after it
   ForeignTime::Unit unit;
 };
 constexpr TimeUnit kTimeUnits[] = {{"MS", ForeignTime::Unit::Milliseconds}, {"MIN", ForeignTime::Unit::Minutes},
@@ -22,9 +22,9 @@ constexpr TimeUnit kTimeUnits[] = {{"MS", ForeignTime::Unit::Milliseconds}, {"MI
                                    {"S", ForeignTime::Unit::Seconds},       {"H", ForeignTime::Unit::Hours}};
 constexpr uint64_t kMilliseconds[] = {1, 1000, 60'000, 3'600'000}; // by ForeignTime::Unit
 
-constexpr uint64_t kMostTime = uint64_t{1} << 52; // of parts together; a double holds it
+constexpr uint64_t kMostTime = uint64_t{1} << 52; // bound for the sum of the parts, which a double holds exactly
 
-// Takes digits, perhaps with a point, and a unit off.
+// Takes a number, with or without a decimal point, and its unit off the front of `text`.
 struct TimePart {
   double amount = 0;
   ForeignTime::Unit unit = ForeignTime::Unit::Milliseconds;
@@ -40,7 +40,7 @@ std::optional<TimePart> takeTimePart(std::string_view& text) {
 }
 
 struct ComparisonSign {
-  std::string_view sign; // one that begins another comes after it
+  std::string_view sign; // a sign that is a prefix of another comes after it
   std::string_view word;
 };
 constexpr ComparisonSign kComparisonSigns[] = {{">=", "GE"}, {"<=", "LE"}, {"<>", "NE"}, {"!=", "NE"},
@@ -66,7 +66,7 @@ bool isModified(std::string_view word, std::string_view known) {
   if (known.empty() || word.size() != known.size() + 1 || !text::startsWithIgnoringCase(word, known)) return false;
   const char last = text::upper(word.back());
   return last != text::upper(known.back()) &&
-         kModifiers.find(last) != std::string_view::npos; // a doubled one is a slip
+         kModifiers.find(last) != std::string_view::npos; // a doubled last letter is a typing error
 }
 
 std::optional<ForeignNumber> foreignNumber(std::string_view text) {

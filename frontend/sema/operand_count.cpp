@@ -1,4 +1,4 @@
-// How many operands (see operand_count.h).
+// Checks of the number of operands (see operand_count.h).
 #include "frontend/sema/operand_count.h"
 
 #include <algorithm>

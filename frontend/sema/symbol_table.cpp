@@ -1,4 +1,4 @@
-// Names that are declared twice or not at all (see symbol_table.h).
+// Errors about names that are declared twice or not at all (see symbol_table.h).
 #include "frontend/sema/symbol_table.h"
 
 #include "ir/support/diag/operand.h"

@@ -1,4 +1,4 @@
-// Lines to columns; see the header.
+// Layout of lines in columns (see page.h).
 #include "frontend/syntax/page.h"
 
 #include <algorithm>
@@ -10,9 +10,9 @@
 namespace rung::frontend {
 namespace {
 
-constexpr size_t kCommentGap = 2; // between a line and the comment after it
+constexpr size_t kCommentGap = 2; // columns between a line and its comment
 
-// The first line end decides for all.
+// Whether the file uses CRLF; its first line end decides.
 bool endsLinesAsDos(std::string_view source) {
   const size_t end = source.find('\n');
   return end != std::string_view::npos && end > 0 && source[end - 1] == '\r';
@@ -54,7 +54,7 @@ void Page::blank() {
   if (!lines_.empty() && !lines_.back().isBlank()) lines_.push_back({.cells = {""}, .aside = true});
 }
 
-// The line after the last one of the table that begins here.
+// Index after the last line of the table that begins here.
 size_t Page::endOfTable(size_t first) const {
   const Table* table = lines_[first].table;
   size_t end = first + 1;
@@ -112,7 +112,7 @@ void Page::layOut() {
       while (end < lines_.size() && !lines_[end].isTable() && !lines_[end].comment.empty()) ++end;
       alignComments(i, end);
       for (size_t next = i; next < end && lines_[next].text().empty(); ++next)
-        lines_[next].commentColumn = lines_[next - 1].commentColumn; // of the table above
+        lines_[next].commentColumn = lines_[next - 1].commentColumn; // the column of the line above
     }
     i = end;
   }

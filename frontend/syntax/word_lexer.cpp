@@ -1,4 +1,4 @@
-// Lines, words and comments; see the header.
+// Splits source text into lines, words and comments (see word_lexer.h).
 #include "frontend/syntax/word_lexer.h"
 
 #include <fmt/format.h>
@@ -104,7 +104,7 @@ bool checkEncoding(const SourceManager& sources, FileId file, Diagnostics& diagn
   return false;
 }
 
-// Characters that mean nothing, and those of ASCII that look like them.
+// Characters outside the language, and the ASCII characters that they resemble.
 
 namespace {
 
@@ -112,7 +112,7 @@ struct LookAlike {
   uint32_t character;
   char ascii;
 };
-// Greek and Cyrillic letters, quotation marks and signs of word processors.
+// Greek and Cyrillic letters, and the quotation marks and signs that word processors insert.
 constexpr LookAlike kLookAlikes[] = {
     {0x00A0, ' '},  {0x00D7, '*'}, {0x0391, 'A'}, {0x0392, 'B'}, {0x0395, 'E'}, {0x0396, 'Z'}, {0x0397, 'H'},
     {0x0399, 'I'},  {0x039A, 'K'}, {0x039C, 'M'}, {0x039D, 'N'}, {0x039F, 'O'}, {0x03A1, 'P'}, {0x03A4, 'T'},
@@ -123,7 +123,7 @@ constexpr LookAlike kLookAlikes[] = {
     {0x2019, '\''}, {0x202F, ' '}, {0x2212, '-'}, {0x3000, ' '},
 };
 
-/// 0 for a character that is like none.
+/// The ASCII character that this one resembles; 0 if there is none.
 char asciiFor(uint32_t character) {
   if (character >= 0xFF01 && character <= 0xFF5E) return static_cast<char>(character - 0xFF01 + '!'); // full width
   if (character >= 0x2010 && character <= 0x2015) return '-';

@@ -1,7 +1,7 @@
-// New columns for a drawing. What has a column is an atom: a mark (`+`, `|`) or an element. Atoms that must stay one
-// below the other, joined marks and the lines of a box, are a group and have one column. Lines keep their atoms in
-// their order, so a group is as far to the left as those before it allow. Groups that would then meet, though their
-// marks are not joined in the drawing, are kept apart, and all is begun again.
+// Assigns new columns to a drawing. An atom, a mark (`+`, `|`) or an element, is the unit that has a column. Atoms that
+// must stay one below the other, joined marks and the lines of a box, form a group and share a column. The order of
+// atoms on a line does not change, so each group is placed as far to the left as the groups before it allow. If that
+// aligns marks that are not joined in the source, their groups are separated and the placement starts again.
 #include <algorithm>
 #include <numeric>
 #include <optional>
@@ -16,26 +16,26 @@ namespace rung::frontend::ladder {
 namespace {
 
 constexpr uint32_t kStart = 3;    // the first column after "|--"
-constexpr uint32_t kGap = 2;      // between atoms: a wire `--`, or blanks
-constexpr uint32_t kApart = 3;    // from mark to mark that must not meet
+constexpr uint32_t kGap = 2;      // minimum between atoms: a wire `--`, or blanks
+constexpr uint32_t kApart = 3;    // distance between marks that must not join
 constexpr uint32_t kMaxPad = 100; // longer boxes do not pull their pin lines along
-constexpr int kMaxRounds = 200;   // what needs more was not drawn by a person
+constexpr int kMaxRounds = 200;   // a drawing that needs more was not made by a person
 
 enum class Shape : uint8_t { Mark, Box, OneWordBox, Other };
 
 struct Atom {
   std::string text;
-  uint32_t drawn; // the column in the source
+  uint32_t drawn; // column in the source
   uint32_t width;
   uint32_t group = 0;
   Shape shape = Shape::Mark;
-  bool wired = false; // to the one on its left
+  bool wired = false; // connected to the atom on its left
 };
 
 struct Group {
   uint32_t drawn;
   uint32_t column = 0;
-  std::vector<uint32_t> apart; // groups that it must be right of
+  std::vector<uint32_t> apart; // groups that must stay on its left
 };
 
 class Columns {
@@ -79,7 +79,7 @@ private:
   std::vector<Atom> atoms_; // line by line, from left to right
   std::vector<size_t> lineBegins_;
   std::vector<Group> groups_;
-  std::vector<size_t> order_; // atoms by their columns in the source
+  std::vector<size_t> order_; // indices of atoms, sorted by their columns in the source
 };
 
 void Columns::read(const DrawnLine& line) {
@@ -133,7 +133,7 @@ void Columns::add(Atom atom, bool isPinLine) {
   atoms_.push_back(std::move(atom));
 }
 
-// That of the atom above, where the two belong together; else kNone.
+// Group of the atom above if the two belong together; otherwise kNone.
 uint32_t Columns::groupAbove(const Atom& atom, bool isPinLine) const {
   const size_t line = lineBegins_.size() - 1;
   if (line == 0 || (atom.shape != Shape::Mark && !isPinLine)) return kNone;
@@ -143,7 +143,8 @@ uint32_t Columns::groupAbove(const Atom& atom, bool isPinLine) const {
   return isPinLine || at->shape == Shape::Mark ? at->group : kNone;
 }
 
-// Each group as far to the left as it may be. What is left of an atom has been drawn left of it, and has its place.
+// Places each group as far to the left as possible. The atoms on its left come first in order_, so they are already
+// placed.
 void Columns::place() {
   for (Group& group : groups_) group.column = group.drawn == 0 ? 0 : kStart;
   for (const size_t i : order_) {
@@ -153,7 +154,7 @@ void Columns::place() {
   }
 }
 
-// Whether some groups had to be kept apart.
+// Separates groups that would join by accident; returns whether there were any.
 bool Columns::separate() {
   bool found = false;
   for (size_t line = 1; line + 1 < lineBegins_.size(); ++line) {
@@ -167,7 +168,7 @@ bool Columns::separate() {
   return found;
 }
 
-// Two atoms of neighbouring lines in one column: keeps them apart where that would say what the drawing does not.
+// Separates two atoms of neighbouring lines in one column if they would form a joint that the source does not have.
 bool Columns::meet(const Atom& above, const Atom& below) {
   const bool marks = above.shape == Shape::Mark && below.shape == Shape::Mark;
   const bool pin = below.shape == Shape::OneWordBox && above.shape != Shape::Mark && above.shape != Shape::Other;

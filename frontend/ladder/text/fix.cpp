@@ -1,4 +1,4 @@
-// Words in drawings (see fix.h).
+// Fixes that replace words in drawings (see fix.h).
 #include "frontend/ladder/text/fix.h"
 
 #include <algorithm>
@@ -12,9 +12,9 @@
 namespace rung::frontend::ladder {
 namespace {
 
-/// The element's text from `at` on to the end of the wire on its right; and how long that wire is.
+/// The rest of an element from `at` on, and the wire on its right.
 struct Rest {
-  std::string_view closing; ///< up to the bracket, with it
+  std::string_view closing; ///< text up to and including the closing bracket
   size_t wire = 0;
   bool last = false; ///< nothing follows on the line
 };
@@ -36,13 +36,14 @@ bool isDrawing(std::string_view line) {
   return first != std::string_view::npos && beginsDrawing(line[first]);
 }
 
-/// A place, and what is written there instead.
+/// A source range and its replacement text.
 struct Change {
   SourceRange range;
   std::string text;
 };
 
-/// The word in the place of `range`, in a drawing with the wire on its right; nothing without room for it.
+/// The change that replaces `range` by the word; in a drawing the wire on its right absorbs the difference in length.
+/// nullopt if there is no room.
 std::optional<Change> changeOf(const SourceManager& sources, SourceRange range, std::string_view word) {
   const std::string_view line = sources.lineText(range.begin);
   const std::string_view old = sources.text(range);
@@ -51,7 +52,7 @@ std::optional<Change> changeOf(const SourceManager& sources, SourceRange range, 
   const size_t end = sources.offsetOf(range.end) - start.offset;
   const std::optional<Rest> rest = restOf(line, end);
   if (rest && rest->last) return Change{range, std::string(word)};
-  // A wire is at least one '-' long.
+  // At least one '-' of the wire must remain.
   if (!rest || rest->wire == 0 || rest->wire + old.size() <= word.size()) return std::nullopt;
   const size_t wire = rest->wire + old.size() - word.size();
   const SourceRange whole{range.begin,
@@ -59,7 +60,7 @@ std::optional<Change> changeOf(const SourceManager& sources, SourceRange range, 
   return Change{whole, std::string(word) + std::string(rest->closing) + std::string(wire, '-')};
 }
 
-/// Of all places or of none: a name that is corrected at some of its places would be two names.
+/// Adds a fix for all places or for none: a name corrected at only some of its places would become two names.
 void meantAt(DiagBuilder& report, const SourceManager& sources, std::span<const SourceRange> places,
              std::string_view word) {
   std::vector<Change> changes;

@@ -1,4 +1,4 @@
-// Lines of a file that was parsed, written anew; see the header.
+// Formats the lines of a parsed file (see format.h).
 #include "frontend/ladder/text/format.h"
 
 #include <algorithm>
@@ -13,9 +13,9 @@ namespace {
 constexpr Table kNames; // symbol, const
 constexpr Table kMessages;
 constexpr Table kButtons;
-constexpr Table kStatements{.endsAtBlank = true}; // all others, in one cell
+constexpr Table kStatements{.endsAtBlank = true}; // all other statements, in one cell
 
-// The table whose lines begin with a word; null where they are not a table.
+// The table that lines with this keyword belong to; null if they do not form a table.
 const Table* tableOf(std::string_view keyword) {
   if (keyword == "symbol" || keyword == "const") return &kNames;
   if (keyword == "message") return &kMessages;
@@ -29,7 +29,7 @@ std::string spelled(const Word& word) {
 
 class Formatter {
 public:
-  // `kept`: whether a rung stays as it is drawn.
+  // `kept`: per rung, whether its drawing stays unchanged.
   Formatter(const SourceManager& sources, const LadderFile& file, FindBox findBox, const std::vector<bool>& kept)
       : sources_(sources), file_(file), findBox_(findBox), kept_(kept), page_(sources.text(file.file), 0) {}
 
@@ -46,7 +46,7 @@ private:
   void statement(const SourceLine& source);
   void openRung();
   bool isInDrawing() const { return nextDrawn_ < drawing_.lines.size(); }
-  // The next line of the drawing.
+  // Text of the next line of the drawing.
   std::string drawnText() const;
 
   const SourceManager& sources_;
@@ -57,7 +57,7 @@ private:
   LineWords words_;
   size_t nextRung_ = 0;
   Drawing drawing_;
-  std::optional<std::vector<std::string>> laidOut_; // the lines of the drawing, nothing where it is kept
+  std::optional<std::vector<std::string>> laidOut_; // new lines of the drawing; nullopt if it stays unchanged
   size_t nextDrawn_ = 0;
 };
 
@@ -69,7 +69,7 @@ void Formatter::line(const SourceLine& source) {
   statement(source);
 }
 
-// One that is not in the first column is with the next line of the drawing.
+// A comment outside the first column is indented like the next line of the drawing.
 void Formatter::comment(std::string_view text, size_t first) {
   const size_t column = first > 0 && isInDrawing() ? drawnText().find_first_not_of(' ') : 0;
   page_.comment(std::string(column, ' ').append(text));
@@ -110,13 +110,13 @@ void Formatter::statement(const SourceLine& source) {
   if (words_.words[0].text == "rung") openRung();
 }
 
-// What a rung means, whatever its lines and columns are.
+// The meaning of a rung, independent of its lines and columns.
 std::string meaningOf(const Rung& rung) {
   const std::string dump = dumpRung(rung);
   return dump.substr(dump.find('\n'));
 }
 
-// Which rungs of `text` are not those of the file.
+// Per rung, whether it means something else in `text` than in the file.
 std::vector<bool> changedRungs(const LadderFile& file, const std::string& text, FindBox findBox) {
   SourceManager sources;
   Diagnostics discarded;

@@ -1,4 +1,4 @@
-// Statements of ladder text; the drawings go to the scanner and the wiring.
+// Parses the statements of ladder text; drawings are passed to the scanner and the wiring.
 #include <algorithm>
 #include <iterator>
 #include <string>
@@ -20,11 +20,11 @@ namespace {
 
 constexpr WordRules kRules{};
 
-/// What a drawing line belongs to.
+/// Context of a drawing line.
 enum class Place : uint8_t {
-  Outside, ///< to nothing: an error
+  Outside, ///< no open rung: an error
   Rung,    ///< to the open rung
-  Skipped, ///< to something that has been reported
+  Skipped, ///< follows a line that was already reported
 };
 
 class Parser {
@@ -64,14 +64,14 @@ private:
   const FindBox findBox_;
   LadderFile result_;
   LineWords words_;
-  uint32_t line_ = 0;             ///< of the last statement
-  std::vector<Comment> comments_; ///< since the last statement or line of a drawing
+  uint32_t line_ = 0;             ///< line of the last statement
+  std::vector<Comment> comments_; ///< comments since the last statement or drawing line
   Drawing drawing_;
   Place place_ = Place::Outside;
-  bool rungIsEmpty_ = false; // the last one
+  bool rungIsEmpty_ = false; // whether the last rung has no drawing
   bool hadStatement_ = false;
   bool hadOutsideRung_ = false;
-  bool isList_ = false; // an instruction list
+  bool isList_ = false; // the file is an instruction list
 };
 
 LadderFile Parser::run() {
@@ -94,7 +94,7 @@ void Parser::line(const SourceLine& source) {
   }
   const char c = source.text[first];
   if (c == ';')
-    return comments_.push_back(commentFrom(source, first)); // between drawing lines, too: it is not a blank line
+    return comments_.push_back(commentFrom(source, first)); // also between drawing lines: a comment is not a blank line
   if (!beginsDrawing(c)) {
     closeRung();
     statement(source);
@@ -113,7 +113,7 @@ void Parser::drawingLine(const SourceLine& source) {
     Rung& rung = result_.rungs.back();
     rung.lastLine = source.number;
     rung.range.end = source.at(source.text.find_last_not_of(' ') + 1);
-  } else if (place_ == Place::Outside && rungIsEmpty_) { // this is its drawing, and it has been reported
+  } else if (place_ == Place::Outside && rungIsEmpty_) { // the drawing of a rung that was reported as empty
     place_ = Place::Skipped;
   } else if (place_ == Place::Outside) {
     DiagBuilder report = diagnostics_.report(diag::StrayDrawing, source.range());
@@ -125,7 +125,7 @@ void Parser::drawingLine(const SourceLine& source) {
 }
 
 void Parser::reportUnknown(const Word& keyword) {
-  if (isList_) return; // reported at its first line
+  if (isList_) return; // reported at the list's first line
   DiagBuilder report = diagnostics_.report(diag::UnknownStatement, keyword.range);
   report << keyword.text;
   isList_ = isListLine(words_.words);
@@ -147,7 +147,7 @@ void Parser::reportUnknown(const Word& keyword) {
     suggest(report, keyword.range, text::likeliest(keyword.text, kKeywords, &Keyword::word));
 }
 
-/// Splits the line; false when its words are not even words.
+/// Splits the line into words; false if a word cannot be read, which is reported.
 bool Parser::checkWords(const SourceLine& source) {
   splitWords(source, kRules, words_);
   for (const Word& word : words_.words) {
@@ -167,7 +167,7 @@ void Parser::statement(const SourceLine& source) {
   const bool isFirst = !hadStatement_;
   hadStatement_ = true;
   if (!checkWords(source)) {
-    // The rung of a broken `rung` line is drawn below it; nothing can be said about it.
+    // A broken line may have been a `rung` statement: the drawing below it is skipped without further errors.
     place_ = Place::Skipped;
     return;
   }
@@ -282,7 +282,7 @@ void Parser::finishRung(Rung& rung) {
     drawing_.bad = true;
     rungIsEmpty_ = true;
   }
-  Diagnostics discarded; // what else is wrong with a drawing that could not be read follows from that
+  Diagnostics discarded; // further errors in a drawing that could not be read are consequences of the first
   dropRightRail(drawing_);
   groupPins(drawing_, findBox_, drawing_.bad ? discarded : diagnostics_);
   wireUp(drawing_, rung, drawing_.bad ? discarded : diagnostics_);
@@ -313,13 +313,13 @@ std::string_view peekDialect(const SourceManager& sources, FileId file) {
     splitWords(line, kRules, words);
     if (words.words.empty()) continue;
     const bool found = words.words.size() == 2 && text::equalsIgnoringCase(words.words[0].text, "dialect") &&
-                       !words.words[0].quoted; // in other letters the parser says how it is written
+                       !words.words[0].quoted; // the parser reports a keyword in the wrong case
     return found ? words.words[1].text : std::string_view();
   }
   return {};
 }
 
-// The lines of a rung that was parsed before, as tokens again.
+// Scans the lines of a rung again that was parsed before.
 
 Drawing readDrawing(const SourceManager& sources, FileId file, const Rung& rung, FindBox findBox) {
   Drawing drawing;

@@ -1,4 +1,4 @@
-// One line of a drawing → tokens and elements.
+// Scans one line of a drawing into tokens and elements.
 #include <algorithm>
 #include <optional>
 #include <span>
@@ -20,7 +20,8 @@ constexpr std::string_view kContactForms = "[x], with '/', '@' or '%' before x, 
 constexpr std::string_view kCoilForms = "(x), (/x), (S x) or (R x), where x is one operand without blanks";
 constexpr std::string_view kBoxForms = "{MNEMONIC operands}";
 
-/// Words before the operand of a contact or coil in other ladders, and what is drawn here; `same`: it is that.
+/// A word before the operand of a contact or coil in other ladders, and how it is drawn here; `same`: both mean the
+/// same.
 struct ForeignMark {
   std::string_view word;
   std::string_view here;
@@ -114,9 +115,9 @@ private:
   Drawing& drawing_;
   Diagnostics& diagnostics_;
   size_t at_ = 0;
-  size_t continuations_ = 0; ///< bytes so far that begin no character: byte offset − this = column
+  size_t continuations_ = 0; ///< continuation bytes so far: byte offset − this = column
   bool good_ = true;
-  size_t badEnd_ = 0; ///< after the closing bracket of an element that was reported; 0: it has none
+  size_t badEnd_ = 0; ///< end of the closing bracket of an element that was reported; 0 if it has none
 };
 
 void LineScanner::step() {
@@ -157,7 +158,7 @@ void LineScanner::strayText() {
   noteContact(report, end);
 }
 
-/// `-| |-`, a contact whose name may be above it: where it ends; 0 where there is none.
+/// Detects `-| |-`, a contact whose name may be above it; returns its end, or 0.
 size_t LineScanner::emptyBarsEnd() const {
   if (at_ == 0 || text_[at_] != '|' || !isWire(text_[at_ - 1])) return 0;
   const size_t second = skipBlanks(at_ + 1, text_.size());
@@ -172,7 +173,7 @@ void LineScanner::emptyBars(size_t end) {
   skipBad(at_);
 }
 
-/// `-|A|-`, `-| /A |-` and `-] [-` are contacts of other ladders.
+/// Adds a note for `-|A|-`, `-| /A |-` and `-] [-`, contacts of other ladders.
 void LineScanner::noteContact(DiagBuilder& report, size_t end) const {
   const std::string_view word = text_.substr(at_, end - at_);
   const size_t before = text_.find_last_not_of(' ', at_ - 1);
@@ -208,7 +209,7 @@ void LineScanner::element() {
   countContinuations(begin);
 }
 
-/// A bad element whose end is known: what follows on the line is read.
+/// Skips a bad element whose end is known; scanning continues after it.
 void LineScanner::skipBad(size_t begin) {
   addError(begin, badEnd_);
   at_ = badEnd_;
@@ -217,7 +218,7 @@ void LineScanner::skipBad(size_t begin) {
   good_ = true;
 }
 
-/// From here to the end of the line.
+/// Marks the rest of the line as unread.
 void LineScanner::unread() { addError(at_, text_.size()); }
 
 void LineScanner::addError(size_t begin, size_t end) {
@@ -232,7 +233,7 @@ void LineScanner::addError(size_t begin, size_t end) {
   drawing_.elements.push_back(element);
 }
 
-/// Of an element from `begin` to here.
+/// Counts the continuation bytes of an element, from `begin` to the current position.
 void LineScanner::countContinuations(size_t begin) {
   const std::string_view drawn = text_.substr(begin, at_ - begin);
   continuations_ += drawn.size() - countCodePoints(drawn);
@@ -249,7 +250,7 @@ bool LineScanner::badElement(size_t end, std::string_view forms) {
   return false;
 }
 
-/// In the place of one operand.
+/// Reports several words where one operand is expected.
 bool LineScanner::severalWords(const Element& element, size_t begin, size_t end, std::string_view forms) {
   const bool contact = element.kind == ElementKind::Contact;
   badEnd_ = text_.find_first_of("])", end) + 1;
@@ -271,7 +272,7 @@ bool LineScanner::severalWords(const Element& element, size_t begin, size_t end,
   return false;
 }
 
-/// The element that a bad one was meant to be, without its closing bracket; it keeps its width where it is put right.
+/// Suggests what a bad element was meant to be; `drawn` lacks the closing bracket. A fix keeps the element's width.
 void LineScanner::meant(DiagBuilder& report, std::string drawn, bool certain) const {
   const char close = text_[badEnd_ - 1];
   const size_t wide = badEnd_ - at_ - 1;
@@ -281,7 +282,7 @@ void LineScanner::meant(DiagBuilder& report, std::string drawn, bool certain) co
   report.fix(line_.range(at_, badEnd_), drawn + close);
 }
 
-/// The negation of other languages, `~x`, or one after the edge, `@/x`.
+/// Reports the negation of other languages, `~x`, or a negation after the edge, `@/x`.
 bool LineScanner::misplacedNegation(const Element& element, size_t begin, size_t end, std::string_view forms) {
   badEnd_ = text_.find_first_of("])", end) + 1;
   DiagBuilder report = diagnostics_.report(diag::BadElement, line_.range(at_, badEnd_));
@@ -297,7 +298,7 @@ bool LineScanner::badCharacter(size_t offset) {
   return false;
 }
 
-/// The closing bracket of a contact or coil; no other bracket may come before it.
+/// Position of the closing bracket of a contact or coil; no other bracket may come before it.
 std::optional<size_t> LineScanner::simpleEnd(char close) {
   const size_t end = text_.find_first_of("[](){}", at_ + 1);
   if (end != std::string_view::npos && text_[end] == close) return end;
@@ -305,7 +306,7 @@ std::optional<size_t> LineScanner::simpleEnd(char close) {
   return std::nullopt;
 }
 
-/// The operand of a contact or coil, perhaps with an edge before it.
+/// Scans the operand of a contact or coil, with an optional edge before it.
 bool LineScanner::operand(Element& element, size_t begin, size_t end, std::string_view forms) {
   if (begin < end && (text_[begin] == '@' || text_[begin] == '%')) {
     element.edge = text_[begin];
@@ -317,7 +318,7 @@ bool LineScanner::operand(Element& element, size_t begin, size_t end, std::strin
     badEnd_ = text_.find_first_of("])", end) + 1;
     return badCharacter(bad);
   }
-  // What is written for a comparison, a > 5, the dialect knows.
+  // A comparison such as `a > 5` is left to the dialect, which knows the right instruction.
   const bool compares = element.kind == ElementKind::Contact && word.find_first_of("<>=") != std::string_view::npos;
   if (word.find(' ') != std::string_view::npos && !compares) return severalWords(element, begin, end, forms);
   if (word.empty()) return badElement(text_.find_first_of("])", end) + 1, forms);
@@ -341,7 +342,7 @@ bool LineScanner::contact(Element& element) {
   return true;
 }
 
-/// `(S x)` and `(R x)` are distinguished from a coil on S or R by the second word.
+/// Scans a coil. The second word distinguishes `(S x)` and `(R x)` from a coil on S or R.
 bool LineScanner::coil(Element& element) {
   const std::optional<size_t> close = simpleEnd(')');
   if (!close) return false;
@@ -368,7 +369,7 @@ size_t LineScanner::boxWordEnd(size_t begin) const {
   return end;
 }
 
-/// The first word is the mnemonic (or, in a pin line, the name of the pin).
+/// Scans a box. The first word is the mnemonic (in a pin line, the name of the pin).
 bool LineScanner::box(Element& element) {
   element.kind = ElementKind::Box;
   const uint32_t first = element.operands.first;

@@ -1,5 +1,6 @@
-// Tokens → nets. Wires, vertical bars and the joints between neighbouring elements are nodes of a union-find structure;
-// a net is one of its classes. Every line yields at most one error: what is wrong on it mostly has one cause.
+// Turns tokens into nets. Wires, vertical bars and the joints between neighbouring elements are nodes of a union-find
+// structure; a net is one of its classes. Each line yields at most one error, because several problems on a line mostly
+// have one cause.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,13 +16,13 @@ namespace {
 
 constexpr uint32_t kRailNode = 0;
 
-/// A `+`, a `|` or the rail: what wires of neighbouring lines meet in.
+/// A `+`, a `|` or the rail: a point where wires of neighbouring lines can join.
 struct Mark {
   uint32_t column = 0;
   uint32_t node = 0;
   uint32_t line = 0;   ///< index into Drawing::lines
   uint32_t token = 0;  ///< index into Drawing::tokens
-  uint32_t offset = 0; ///< in the line, in bytes
+  uint32_t offset = 0; ///< byte offset in the line
   bool up = false;
   bool down = false;
 };
@@ -42,7 +43,7 @@ public:
     joinColumns();
     for (const Mark& mark : marks_) checkMark(mark);
     for (uint32_t& input : inputs_)
-      if (input == kNone) input = newNode(); // reported, or of a bad drawing
+      if (input == kNone) input = newNode(); // already reported, or part of a bad drawing
     makeElements();
     linkNets(rung_);
     if (!drawing_.bad) checkNets();
@@ -78,9 +79,9 @@ private:
   Rung& rung_;
   Diagnostics& diagnostics_;
   std::vector<uint32_t> parent_;
-  std::vector<uint32_t> inputs_;  ///< per drawn element: its node
-  std::vector<uint32_t> outputs_; ///< per drawn element: its node or kNone
-  std::vector<Mark> marks_;       ///< by line and column
+  std::vector<uint32_t> inputs_;  ///< node per drawn element
+  std::vector<uint32_t> outputs_; ///< node per drawn element, or kNone
+  std::vector<Mark> marks_;       ///< sorted by line and column
   std::vector<bool> reported_;    ///< per line
   std::vector<NetId> netOfRoot_;
 
@@ -88,17 +89,17 @@ private:
     uint32_t line;
     uint32_t token;
   };
-  /// A '+' with its column, and the column of the branch that has none; both from 0.
+  /// A '+' with its column, and the column of the branch end that joins nothing; columns count from 0.
   struct Join {
     SourceRange place;
     uint32_t column;
     uint32_t here;
   };
   std::optional<Join> nearestJoin(const OpenEnd& end) const;
-  /// A wire is ASCII: a column a byte.
+  /// A wire is ASCII, so each byte is one column.
   static uint32_t columnOf(const Token& wire, uint32_t offset) { return wire.column + (offset - wire.begin); }
 
-  std::vector<OpenEnd> openEnds_; ///< wires with nothing on their right
+  std::vector<OpenEnd> openEnds_; ///< wires without anything on their right
 };
 
 uint32_t Wiring::find(uint32_t node) {
@@ -109,7 +110,7 @@ uint32_t Wiring::find(uint32_t node) {
   return node;
 }
 
-/// The smaller root stays, so that the rail is the root of its own class.
+/// The smaller root stays the root, so the rail is always the root of its own class.
 void Wiring::unite(uint32_t a, uint32_t b) {
   a = find(a);
   b = find(b);
@@ -148,7 +149,7 @@ void Wiring::joinLine(uint32_t line) {
   }
 }
 
-/// Two tokens without a blank between them. Two wires never are: they would be one token.
+/// Connects two adjacent tokens. They are never both wires: those would be one token.
 void Wiring::connect(uint32_t line, uint32_t left, uint32_t right) {
   const Token& a = drawing_.tokens[left];
   const Token& b = drawing_.tokens[right];
@@ -187,7 +188,7 @@ void Wiring::leftEnd(uint32_t line, uint32_t token) {
   if (t.kind == TokenKind::Wire && first == '-') loose(line, t.begin, t.end, "this wire has nothing on its left");
 }
 
-/// Whether an open end is an error of its own or the end of the whole branch shows when the nets are known.
+/// Records an open end. Whether it is an error by itself or ends the whole branch is known only after the nets.
 void Wiring::rightEnd(uint32_t line, uint32_t token) {
   const Token& t = drawing_.tokens[token];
   if (t.kind == TokenKind::Wire && drawing_.lines[line].source.text[t.end - 1] == '-')
@@ -209,7 +210,7 @@ void Wiring::addMarks(uint32_t line, uint32_t token) {
   }
 }
 
-/// Marks in one column of neighbouring lines are joined.
+/// Joins marks that are in the same column of neighbouring lines.
 void Wiring::joinColumns() {
   size_t above = 0;
   for (size_t here = 0; here < marks_.size(); ++here) {
@@ -226,7 +227,7 @@ void Wiring::joinColumns() {
   }
 }
 
-/// A `|` continues above and below; a `+` joins at least two things.
+/// Checks that a `|` continues above and below and that a `+` joins at least two things.
 void Wiring::checkMark(const Mark& mark) {
   const Token& token = drawing_.tokens[mark.token];
   const Slice slice = drawing_.lines[mark.line].tokens;
@@ -265,7 +266,7 @@ void Wiring::addPin(uint32_t drawnElement, std::string_view name) {
   rung_.pinPool.push_back({name, netOf(inputs_[drawnElement]), drawing_.elements[drawnElement].range});
 }
 
-/// Copies the drawn elements, pin lines folded into their boxes.
+/// Copies the drawn elements; pin lines are merged into their boxes.
 void Wiring::makeElements() {
   netOfRoot_.assign(parent_.size(), kNoNet);
   netOf(kRailNode);
@@ -305,7 +306,7 @@ bool Wiring::onlyCoilsDrive(NetId net) const {
   return !rung_.driversOf(net).empty();
 }
 
-/// A wire that ends openly: its branch lacks its closing element or, when the net leads on elsewhere, it is too long.
+/// Checks wires with an open end: the branch lacks its closing element or, if the net has other consumers, is too long.
 void Wiring::checkOpenEnds() {
   for (const OpenEnd& end : openEnds_) {
     const NetId net = netOf(nodeOf(end.token));
@@ -326,15 +327,15 @@ void Wiring::checkOpenEnds() {
   }
 }
 
-/// Where the line above or below has the '+' that this branch, which ends in one, may have been meant for: a name that
-/// became longer moves it.
+/// The nearest '+' on the line above or below that this branch, which ends in a '+', may have been meant to join: a
+/// longer name shifts the end of a branch.
 std::optional<Wiring::Join> Wiring::nearestJoin(const OpenEnd& end) const {
   const Token& wire = drawing_.tokens[end.token];
   if (drawing_.lines[end.line].source.text[wire.end - 1] != '+') return std::nullopt;
   const uint32_t here = columnOf(wire, wire.end - 1);
   std::optional<Join> nearest;
   uint32_t least = kNone;
-  for (const uint32_t line : {end.line - 1, end.line + 1}) { // the first has none above it, whose number is too large
+  for (const uint32_t line : {end.line - 1, end.line + 1}) { // above line 0 the number wraps around and is out of range
     if (line >= drawing_.lines.size()) continue;
     for (const Token& token : drawing_.tokensOf(drawing_.lines[line])) {
       if (token.kind != TokenKind::Wire) continue;
@@ -361,7 +362,7 @@ void Wiring::checkNets() {
 
 void wireUp(Drawing& drawing, Rung& rung, Diagnostics& diagnostics) { Wiring(drawing, rung, diagnostics).run(); }
 
-// Which boxes are the pin lines of the box above them.
+// Determines which boxes are pin lines of the box above them.
 
 namespace {
 
@@ -370,12 +371,12 @@ struct Group {
   uint32_t head = kNone;
   uint32_t lastPin = kNone;
   uint32_t pinLines = 0;
-  std::optional<std::span<const frontend::PinInfo>> pins; ///< its further ones; nothing where they are not known
+  std::optional<std::span<const frontend::PinInfo>> pins; ///< its pins after the first; nullopt if the box is not known
 
   bool lacksPins() const { return pins && pinLines < pins->size(); }
 };
 
-/// A line of a group: where its braces are.
+/// One line of a group, with the columns of its braces.
 struct Row {
   uint32_t column = 0;
   uint32_t endColumn = 0;
@@ -411,7 +412,7 @@ private:
   const FindBox findBox_;
   Diagnostics& diagnostics_;
   std::vector<Group> groups_;
-  std::vector<Row> above_; ///< by column
+  std::vector<Row> above_; ///< sorted by column
   std::vector<Row> here_;
 };
 
@@ -421,7 +422,8 @@ bool PinGrouper::isNamed(const Group& group, std::string_view word) const {
          });
 }
 
-/// Below a box that still lacks pins a wrong name is an unknown pin, not another box.
+/// Whether the group takes this word as a pin. While pins are missing a wrong name counts as an unknown pin, not as
+/// another box.
 bool PinGrouper::accepts(const Group& group, std::string_view word) const {
   return !group.pins || group.lacksPins() || isNamed(group, word);
 }
@@ -443,8 +445,8 @@ uint32_t PinGrouper::open(uint32_t element) {
   return static_cast<uint32_t>(groups_.size() - 1);
 }
 
-/// The row above, left or right of this column, that the box was probably meant for: the word names a pin that is still
-/// missing there or, where the names are not known, it is padded like a pin line and is over the other box.
+/// The row above, left or right of this column, that the box was probably meant to belong to: the word names a pin that
+/// is still missing there or, if the pins are not known, the line is padded like a pin line and overlaps that box.
 const Row* PinGrouper::misalignedTo(const DrawnLine& line, const Token& token,
                                     std::vector<Row>::const_iterator near) const {
   const std::string_view word = drawing_.elements[token.element].mnemonic;
@@ -475,7 +477,7 @@ void PinGrouper::box(const DrawnLine& line, const Token& token) {
       const SourceRange box = drawing_.elements[groups_[meant->group].head].range;
       diagnostics_.report(diag::MisalignedBox, element.range).label(box, "the box") << meant->column + 1;
       drawing_.bad = true;
-      // Continue as if it were where it should be, so that the lines below are judged by the box.
+      // Continue as if it were in the right column, so that the box is the reference for the lines below.
       addPin(meant->group, token.element);
       row = *meant;
     }
@@ -490,8 +492,8 @@ void groupPins(Drawing& drawing, FindBox findBox, Diagnostics& diagnostics) {
   PinGrouper(drawing, findBox, diagnostics).run();
 }
 
-// The right rail, which need not be drawn: a `|` after the coils and boxes that end their lines. It carries nothing, so
-// its tokens are taken out, and what is left is the drawing without it. A `|` after a wire would be an error otherwise.
+// The right rail, which is optional: a `|` after the coils and boxes that end their lines. It carries no power, so its
+// tokens are removed before the wiring. A `|` after a wire would otherwise be an error.
 
 namespace {
 
@@ -523,7 +525,8 @@ private:
   std::vector<uint32_t> columns_;
 };
 
-/// After a coil nothing else can be meant. A box may have an output: its `|` must be right of all that is drawn.
+/// Whether the token closes the line. After a coil, a `|` can only be the rail. A box may have an output, so its `|`
+/// counts as the rail only at the right of the whole drawing.
 bool RightRail::endsLine(const Token& token, const DrawnLine& line) const {
   if (token.kind != TokenKind::Element) return false;
   const ElementKind kind = drawing_.elements[token.element].kind;
@@ -535,7 +538,8 @@ bool RightRail::endsLine(const Token& token, const DrawnLine& line) const {
   });
 }
 
-/// How many tokens at the end of the line are the rail and the wire to it; 0 where it does not end so.
+/// Number of tokens at the end of the line that form the rail and the wire to it; 0 if the line does not end in the
+/// rail.
 uint32_t RightRail::touchedTokens(const DrawnLine& line) const {
   if (!isLastBar(line)) return 0;
   const std::span<const Token> tokens = drawing_.tokensOf(line);
@@ -546,7 +550,7 @@ uint32_t RightRail::touchedTokens(const DrawnLine& line) const {
   return endsLine(tokens[last - 1], line) ? static_cast<uint32_t>(tokens.size() - last) : 0;
 }
 
-/// A line that does not reach the rail has its `|` alone, in a column of others.
+/// Removes the rail from a line. A line that does not reach the rail has a `|` of its own in the same column.
 void RightRail::shorten(DrawnLine& line) const {
   const uint32_t touched = touchedTokens(line);
   if (touched != 0)

@@ -1,4 +1,4 @@
-// Addresses and numbers as text.
+// Parses and prints addresses and numbers.
 #include "frontend/network/address.h"
 
 #include <algorithm>

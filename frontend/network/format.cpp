@@ -1,5 +1,5 @@
-// A command list is written as it is read, one statement a line: commands in capitals, operands in a column, step
-// numbers in one of their own before them.
+// Formats command lists with one statement per line: commands in capitals, operands in a column, and step numbers in a
+// column before them.
 #include "frontend/network/format.h"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace {
 
 constexpr Table kNames; // symbol, const
 
-// The mnemonics of functions are written as those of commands are.
+// The operand as text; mnemonics of functions are written in capitals like commands.
 std::string operandText(const Language& language, Command command, const Word& word) {
   const bool isMnemonic = command == Command::Function && language.findFunction(word.text) != nullptr;
   return isMnemonic ? text::upper(word.text) : std::string(word.text);
@@ -48,7 +48,7 @@ private:
   FileId file_;
   Page page_;
   LineWords words_;
-  size_t numberWidth_ = 0; // of step numbers, with the blank after them; 0: there are none
+  size_t numberWidth_ = 0; // width of the step numbers and the blank after them; 0 if there are none
 };
 
 void ListFormatter::findNumbers() {
@@ -60,7 +60,7 @@ void ListFormatter::findNumbers() {
   }
 }
 
-// What comes before the statement of a line.
+// The step number of the line, padded to its column.
 std::string ListFormatter::number() const {
   const bool has = statementOf(words_).size() < words_.words.size();
   return fmt::format("{:<{}}", has ? words_.words[0].text : "", numberWidth_);

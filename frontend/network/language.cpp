@@ -1,4 +1,4 @@
-// Ways to find a row, and names as messages have them.
+// Look-up of rows, and names for messages.
 #include "frontend/network/language.h"
 
 #include <fmt/format.h>

@@ -66,7 +66,7 @@ std::string commandText(const Language& language, const Network& network) {
 }
 
 std::string identityOf(const Language& language, const SourceManager& sources, const Function& function) {
-  // By its name, where it has one: that may be given another address.
+  // An operand with a symbol is identified by the symbol, whose address may change.
   const auto written = [&](const Param& param) {
     const std::string_view word = text::trimmed(sources.text(param.range));
     return !param.isAddress || word.empty() || splitAddress(language, word) ? textOf(language, param)

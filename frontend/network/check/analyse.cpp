@@ -1,4 +1,4 @@
-// What holds between the networks of a program: regions (§7.16), labels and jumps (§7.17), calls (§7.18), numbers.
+// Checks across the networks of a program: regions (§7.16), labels and jumps (§7.17), calls (§7.18), numbers.
 #include <algorithm>
 #include <map>
 #include <set>
@@ -14,7 +14,7 @@
 namespace rung::frontend::network {
 namespace {
 
-// The number of a label or subprogram, when it was right.
+// The number of a label or subprogram; nullopt if the operand has been rejected.
 std::optional<uint32_t> numberOf(const Network& network) {
   if (network.function.params.size() != 1 || network.function.params[0].bad) return std::nullopt;
   return static_cast<uint32_t>(network.function.params[0].value);
@@ -27,7 +27,7 @@ struct Label {
   bool used = false;
 };
 
-// JMP…JMPE and COM…COME of one unit.
+// Checks the regions JMP…JMPE and COM…COME of one unit.
 class Regions {
 public:
   Regions(Context& context, Unit& unit, bool incomplete)
@@ -42,15 +42,15 @@ public:
   }
 
 private:
-  // Regions of one kind. A second begin inside a region is an error by itself; whether an end was forgotten or the two
-  // are meant one in the other is known by the number of ends.
+  // Regions of one kind. A second begin inside a region is always an error; the number of ends in the unit tells
+  // whether an end was forgotten or the regions are nested.
   struct Kind {
     Control opens;
     Control closes;
-    uint32_t open = kNone;  // where the region under way begins
-    int32_t unended = 0;    // begins without an end, in the whole unit
-    uint32_t skip = 0;      // ends of nested regions still to come
-    uint32_t forgotten = 0; // begins that were taken for regions without an end
+    uint32_t open = kNone;  // network that begins the open region
+    int32_t unended = 0;    // begins minus ends, in the whole unit
+    uint32_t skip = 0;      // ends of nested regions that are still expected
+    uint32_t forgotten = 0; // begins that were treated as regions without an end
 
     void begin(uint32_t i) {
       if (open == kNone || unended > 0) {
@@ -88,7 +88,7 @@ private:
     kind.begin(i);
   }
 
-  // Whether network i ends the region that is open.
+  // Whether network i ends the open region. Reports an end without a begin.
   bool ends(Kind& kind, Diag stray, uint32_t i) {
     if (kind.skip > 0)
       --kind.skip;
@@ -101,14 +101,14 @@ private:
     return false;
   }
 
-  // Reports that a jump region and a common line overlap; `note` is where the other one begins.
+  // Reports that a jump region and a common line overlap; `note` is the other region.
   void overlap(SourceRange range, const Kind& note, std::string_view what) {
     diagnostics_.report(diag::JumpOutOfCom, range).note(at(note.open), fmt::format("{} is here", nameOf(note.opens)))
         << what << nameOf(com_.opens);
   }
 
   void come(uint32_t i) {
-    if (jmp_.open != kNone && jmp_.open > com_.open) { // the JMP region inside reaches out
+    if (jmp_.open != kNone && jmp_.open > com_.open) { // the JMP region begins inside the COM region and ends outside
       overlap(at(i), jmp_, fmt::format("the {} region", nameOf(jmp_.opens)));
       overlap_ = true;
     }
@@ -128,7 +128,7 @@ private:
   bool incomplete_;
   Kind jmp_{Control::Jmp, Control::Jmpe};
   Kind com_{Control::Com, Control::Come};
-  bool overlap_ = false; // of the open JMP region with a common line; reported
+  bool overlap_ = false; // whether the overlap of the open JMP region was reported
 };
 
 class Analysis {
@@ -145,7 +145,7 @@ public:
     spread();
     resolveJumps();
     reportUnused();
-    if (!diagnostics_.hasErrors()) checkCoils(context_, program_, order_); // a mistake may hide a read
+    if (!diagnostics_.hasErrors()) checkCoils(context_, program_, order_); // errors may hide reads of a bit
     checkNumbers();
   }
 
@@ -177,10 +177,10 @@ private:
   bool incomplete_;
   std::map<uint32_t, Label> labels_;
   std::map<uint32_t, uint32_t> subprograms_;
-  frontend::CallGraph calls_;   // of units
+  frontend::CallGraph calls_;   // between units
   std::vector<uint32_t> order_; // callees before their callers
   std::vector<bool> called_;
-  bool labelLost_ = false; // one with a wrong operand: the others may be meant
+  bool labelLost_ = false; // a label with a bad operand may be the one that is missing
   bool jumpLost_ = false;
   bool callLost_ = false;
 };
@@ -230,7 +230,7 @@ void Analysis::resolveCalls() {
   });
 }
 
-// False when there is a cycle.
+// Computes order_ and reports call cycles; false if there is one.
 bool Analysis::findCycles() {
   frontend::CallGraph::Order order = calls_.order();
   order_ = std::move(order.calleesFirst);
@@ -262,7 +262,7 @@ void Analysis::reach(uint32_t unit, uint32_t level) {
   for (const frontend::CallGraph::Call& call : calls_.of(unit)) reach(call.callee, level);
 }
 
-// Which levels run a unit, and which units a JMPC can leave.
+// Determines which levels run each unit, and which units a JMPC can leave.
 void Analysis::spread() {
   for (Unit& unit : program_.units) unit.runBy.assign(language_.levels.size(), false);
   for (uint32_t level = 0; level < language_.levels.size(); ++level) reach(level, level);
@@ -285,7 +285,7 @@ void Analysis::resolveJumps() {
   });
 }
 
-// No other level than the main program does: even if it is not called.
+// Whether only the main program runs the unit, or nothing calls it.
 bool Analysis::runsInMainAlone(const Unit& unit) const {
   for (uint32_t level = 0; level < unit.runBy.size(); ++level)
     if (unit.runBy[level] && level != language_.mainLevel()) return false;
@@ -308,7 +308,7 @@ void Analysis::resolveJump(uint32_t u, Network& network) {
   at->second.used = true;
   const bool leaves = controlOf(network) == Control::Jmpc;
   const Unit& unit = program_.units[u];
-  if (leaves && unit.kind != UnitKind::Subprogram) return; // reported
+  if (leaves && unit.kind != UnitKind::Subprogram) return; // already reported
   if (leaves ? at->second.unit != language_.mainLevel() || !runsInMainAlone(unit) : at->second.unit != u) {
     diagnostics_.report(diag::JumpAcrossEnd, range).note(at->second.range, "the label is here") << name;
     return;
@@ -342,8 +342,8 @@ void Analysis::reportUnused() {
           << language_.numbered(Control::Sp, number);
 }
 
-// Numbers that appear twice (P24, P29, P39). Timers and counters share theirs with those of the same instruction, edges
-// with all.
+// Reports numbers that are used twice (P24, P29, P39). Timers and counters share their numbers with those of the same
+// instruction, edges with all edge instructions.
 void Analysis::checkNumbers() {
   std::map<std::pair<int, int64_t>, SourceRange> seen;
   eachNetwork([&](uint32_t, uint32_t, Network& network) {

@@ -1,10 +1,10 @@
-// Bits with several coils. What a coil writes is lost where another OUT of the bit follows on every way through the
-// scan, without having looked at it. Who sees the bit decides what "looked at" means:
-// - those of outputs, and of memory that the control shows, are seen from outside, at the end of a slot: there the last
-//   OUT counts, whatever contacts saw before;
-// - other bits are seen by contacts and functions only, so a relay may be computed again after it has been read. They
-//   are followed through one unit; a call of what uses the bit counts as reading it.
-// A network that reads the bit which it drives adds to the value, and loses nothing.
+// Checks bits with several coils. The value of a coil is lost if another OUT of the same bit, which has not read it,
+// follows on every path through the scan. What counts as a read depends on who sees the bit:
+// - outputs, and memory that the control displays, are seen from outside at the end of a slot: only the last OUT
+//   counts, whatever contacts read before;
+// - other bits are seen only by contacts and functions, so a relay may be computed again after it has been read. They
+//   are followed through one unit; a call of a unit that uses the bit counts as a read.
+// A network that reads the bit it drives extends the value and loses nothing.
 #include <algorithm>
 #include <map>
 #include <optional>
@@ -22,7 +22,7 @@
 namespace rung::frontend::network {
 namespace {
 
-using Bit = uint32_t; // area, byte and bit, in the order of memory
+using Bit = uint32_t; // area, byte and bit; sorted in memory order
 constexpr Bit keyOf(Area area, uint32_t byte, uint32_t bit) {
   return static_cast<uint32_t>(area) << 16 | byte << 3 | bit;
 }
@@ -31,30 +31,30 @@ constexpr bool drives(Coil kind) { return kind == Coil::Out || kind == Coil::Out
 
 struct Place {
   uint32_t unit = 0;
-  uint32_t network = 0; // in the unit that is looked at: of a coil in a subprogram, the call
+  uint32_t network = 0; // index in the unit being checked; for a coil in a subprogram, its call
   const CoilStep* coil = nullptr;
 };
 
-// What one bit meets in a unit and all that it calls.
+// The effect of a unit, with everything it calls, on one bit.
 struct Effect {
   std::optional<Place> certain; // the first OUT that every run executes and that does not read the bit
   std::optional<Place> left;    // an OUT whose value may stay at the end
   std::optional<Place> latch;   // a SET or RST
-  bool used = false;            // by a contact, a function or a coil
+  bool used = false;            // whether a contact, function or coil uses the bit
 };
 using Effects = std::map<Bit, Effect>;
 
-// A bit of which the walk through a unit keeps track.
+// State of one bit during the walk through a unit.
 struct State {
   std::vector<Place> live; // coils whose value has not been read yet
   Effect effect;
 };
 
-// Which networks of a unit can be passed over.
+// Which networks of a unit a forward jump can skip.
 class Flow {
 public:
   explicit Flow(const Unit& unit) : cover_(unit.networks.size(), kNone) {
-    std::priority_queue<std::pair<uint32_t, uint32_t>> jumps; // the last one first
+    std::priority_queue<std::pair<uint32_t, uint32_t>> jumps; // (network, target), the last jump on top
     for (uint32_t n = 0; n < unit.networks.size(); ++n) {
       while (!jumps.empty() && jumps.top().second <= n) jumps.pop();
       if (!jumps.empty()) cover_[n] = jumps.top().first;
@@ -64,13 +64,13 @@ public:
         jumps.emplace(n, target);
     }
   }
-  // Whether a jump leads past `network`.
+  // Whether a jump can skip `network`.
   bool canPass(uint32_t network) const { return cover_[network] != kNone; }
-  // Whether one after `from` does.
+  // Whether a jump behind `from` can skip `network`.
   bool canPass(uint32_t from, uint32_t network) const { return canPass(network) && cover_[network] > from; }
 
 private:
-  std::vector<uint32_t> cover_; // the last jump that leads past the network
+  std::vector<uint32_t> cover_; // per network, the last jump that can skip it
 };
 
 class CoilCheck {
@@ -106,9 +106,10 @@ private:
   const Language& language_;
   Diagnostics& diagnostics_;
   const Program& program_;
-  std::map<Bit, bool> bits_; // with several coils, one an OUT at least; whether anything reads it
+  std::map<Bit, bool>
+      bits_; // bits with several coils, at least one of them an OUT; the value: whether anything reads the bit
   std::vector<Effects> effects_;
-  std::map<Bit, State> states_; // of the unit under way
+  std::map<Bit, State> states_; // of the unit being walked
   const Flow* flow_ = nullptr;
   std::set<const CoilStep*> reported_;
   std::set<Bit> doubles_;
@@ -130,7 +131,7 @@ void CoilCheck::eachUse(const Network& network, F f) const {
 }
 
 void CoilCheck::collect() {
-  std::map<Bit, std::pair<uint32_t, bool>> coils; // how many, whether one is an OUT
+  std::map<Bit, std::pair<uint32_t, bool>> coils; // number of coils, whether one is an OUT
   for (const Unit& unit : program_.units)
     for (const Network& network : unit.networks)
       for (const CoilStep& coil : network.coils) {
@@ -144,7 +145,7 @@ void CoilCheck::collect() {
     for (const Network& network : unit.networks) eachUse(network, [&](Bit bit) { bits_[bit] = true; });
 }
 
-// Ways through the program that are not followed: out of the unit, back, and to what does not exist.
+// Paths that are not followed: out of the unit, backwards, or to a target that does not exist.
 bool CoilCheck::endsKnowledge(const Network& network, uint32_t index) const {
   switch (controlOf(network)) {
   case Control::Jmp:
@@ -161,7 +162,7 @@ void CoilCheck::walk(uint32_t u) {
   const Flow flow(unit);
   flow_ = &flow;
   states_.clear();
-  bool passable = false; // a run may have ended before
+  bool passable = false; // whether the run may have ended before this network
   for (uint32_t n = 0; n < unit.networks.size(); ++n) {
     const Network& network = unit.networks[n];
     std::set<Bit> reads;
@@ -184,12 +185,12 @@ void CoilCheck::walk(uint32_t u) {
   finish(u);
 }
 
-// Reports what is lost in an OUT that no way from the earlier coils passes.
+// Reports the value that an OUT overwrites on every path from the earlier coil.
 void CoilCheck::overwrite(State& state, const Place& by, uint32_t network, bool called) {
   const Place* lost = nullptr;
   for (const Place& earlier : state.live) {
     if (flow_->canPass(earlier.network, network)) continue;
-    if (called && earlier.unit == by.unit) continue; // a subprogram that runs twice
+    if (called && earlier.unit == by.unit) continue; // a subprogram that runs twice overwrites its own values
     if (lost == nullptr || drives(earlier.coil->kind) || !drives(lost->coil->kind)) lost = &earlier;
   }
   if (lost == nullptr) return;
@@ -209,7 +210,7 @@ void CoilCheck::coil(const Place& place, bool reads, bool passable) {
     if (!outside && bits_.at(keyOf(step.bit))) state.live.push_back(place);
     return;
   }
-  if (!outside && !bits_.at(keyOf(step.bit))) return; // not visible: a coil only because a function needs one
+  if (!outside && !bits_.at(keyOf(step.bit))) return; // nothing reads the bit: its coils only complete their functions
   if (!reads) {
     overwrite(state, place, place.network, false);
     if (!state.effect.certain && !passable && !flow_->canPass(place.network)) state.effect.certain = place;
@@ -248,7 +249,7 @@ void CoilCheck::finish(uint32_t u) {
   }
 }
 
-// All levels may run in one slot, and in every slot some run again.
+// Compares the levels in pairs: all of them may run in one slot, and some run again in every slot.
 void CoilCheck::acrossLevels() {
   for (uint32_t later = 1; later < language_.levels.size(); ++later)
     for (uint32_t level = 0; level < later; ++level) acrossLevels(effects_[level], effects_[later]);
@@ -279,7 +280,7 @@ void CoilCheck::doubleCoil(const Place& here, const Place& other) {
       << textOf(language_, here.coil->bit);
 }
 
-// Once for a bit.
+// Reports a bit with both OUT and SET or RST, once per bit.
 void CoilCheck::mixed(const std::optional<Place>& out, const std::optional<Place>& latch) {
   if (!out || !latch || !mixed_.insert(keyOf(out->coil->bit)).second) return;
   diagnostics_.report(diag::MixedOutput, out->coil->range)

@@ -1,4 +1,4 @@
-// Converts a program and reads the result back: a text that says anything else is never handed out.
+// Converts a program and reads the result back: a text with another meaning is never returned.
 #include "frontend/network/convert/convert.h"
 
 #include <algorithm>
@@ -26,7 +26,7 @@ bool sameUnit(const Unit& a, const Unit& b) {
          std::ranges::equal(withoutEnd(a), withoutEnd(b), sameNetwork);
 }
 
-// Of a program and what it was converted to: the same commands in the same order.
+// Positions in both texts; the converted program has the same commands in the same order.
 std::vector<Origin> originsOf(const Program& program, const Program& converted) {
   std::vector<Origin> origins;
   for (size_t u = 0; u < program.units.size(); ++u) {
@@ -41,14 +41,14 @@ std::vector<Origin> originsOf(const Program& program, const Program& converted) 
   return origins;
 }
 
-// What a program was converted to, read again.
+// Reads the converted text again and checks that it is the same program.
 Program readBack(const Language& language, SourceManager& sources, FileId file, const Program& program) {
   Program again = readSource(language, sources, std::span(&file, 1)).program;
   RUNG_CHECK(std::ranges::equal(program.units, again.units, sameUnit), "a converted program is the same program");
   return again;
 }
 
-// False when a network is too large to be drawn.
+// Reports networks that are too large to draw; false if there are errors.
 bool checkDrawings(const Language& language, const Program& program, Diagnostics& diagnostics) {
   for (const Unit& unit : program.units) {
     for (const Network& network : withoutEnd(unit)) {

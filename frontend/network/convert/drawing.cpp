@@ -1,13 +1,13 @@
-// Layout and painting. Everything is measured first, groups from the inside out, then painted from the outside in.
-//
-// The tree of each pin begins at the left rail and has lines of its own, below those of the pin above it. The lines of
-// a box are together at the top, so the wire of a pin whose tree is lower goes up in a column of its own:
+// Layout and painting of a network. Sizes are measured bottom-up, from inner to outer groups, then everything is
+// painted top-down.
+// The tree of each pin begins at the left rail and occupies its own lines, below those of the pin above it. The lines
+// of a box are together at the top, so the wire of a pin whose tree is lower rises in a column of its own:
 //
 //   |--[A]--+--------{ADDB 1 D0 1 D1}--+--(Y)
 //   |--[B]--+  +-----{ACT           }  +--(S Z)
 //   |--[C]-----+
 //
-// Marks in one column of neighbouring lines join, so two groups that would touch are kept apart by a line of their own.
+// Marks in one column of neighbouring lines join, so a separate line is put between two groups that would touch.
 #include "frontend/network/convert/drawing.h"
 
 #include <algorithm>
@@ -31,7 +31,7 @@ struct Extent {
   uint32_t width = 0;
   uint32_t height = 1;
   bool marks = false;  // contains a parallel group
-  bool onRail = false; // begins at the left rail, which is its left junction
+  bool onRail = false; // begins at the left rail, which then serves as its left junction
 };
 
 struct Spot {
@@ -52,7 +52,7 @@ public:
 private:
   struct Tree {
     SpTree sp;
-    std::vector<uint32_t> order; // nodes, groups before their members
+    std::vector<uint32_t> order; // nodes; groups come before their members
     std::vector<Extent> extents;
     uint32_t line = 0;
   };
@@ -78,18 +78,18 @@ private:
 
   const Language& language_;
   const Network& network_;
-  std::vector<uint32_t> contacts_; // commands
+  std::vector<uint32_t> contacts_; // indices of commands
   std::vector<uint32_t> coils_;
   uint32_t function_ = kNone;
-  std::vector<std::string> texts_; // by contact
-  std::vector<Tree> trees_;        // by pin
+  std::vector<std::string> texts_; // per contact
+  std::vector<Tree> trees_;        // per pin
   std::string box_;
   uint32_t boxColumn_ = kStart;
-  std::vector<uint32_t> risers_; // by pin: the column in which its wire goes up, 0 where it does not
+  std::vector<uint32_t> risers_; // per pin: the column in which its wire rises; 0 if it does not
   uint64_t lines_ = 0;
   uint64_t columns_ = 0;
   Drawing drawing_;
-  std::vector<uint32_t> columnOf_; // by command
+  std::vector<uint32_t> columnOf_; // per command
 };
 
 void Painter::place() {
@@ -259,7 +259,7 @@ void Painter::paint(Tree& tree) {
   }
 }
 
-// The wires between the trees and the box.
+// Paints the wires between the trees and the box.
 void Painter::paintPins() {
   for (uint32_t pin = 0; pin < trees_.size(); ++pin) {
     const Tree& tree = trees_[pin];
@@ -303,7 +303,7 @@ Drawing Painter::run() {
   columnOf_.resize(network_.written.size());
   for (uint32_t line = 0; line < lines_; ++line) put(line, 0, "");
   for (Tree& tree : trees_) paint(tree);
-  for (size_t pin = 1; pin < trees_.size(); ++pin) { // the line that keeps two trees apart
+  for (size_t pin = 1; pin < trees_.size(); ++pin) { // the line that separates two trees
     const Tree& above = trees_[pin - 1];
     const uint32_t below = above.line + above.extents[above.sp.root].height;
     if (below < trees_[pin].line) put(below, 0, "|");

@@ -1,4 +1,4 @@
-// Programs as text (see writers.h).
+// Writes programs as text (see writers.h).
 #include "frontend/network/convert/writers.h"
 
 #include <fmt/format.h>
@@ -17,13 +17,14 @@
 
 namespace rung::frontend::network {
 
-// What the readers keep, and what a program begins with.
+// Reading with comments and gaps, and the preamble of a program.
 
 namespace {
 
 using Kind = Item::Kind;
 
-// The gap that the files begin with: that of the dialect. Without one it is of a list, which has the order of units.
+// The gap with the dialect statement. A program without one is a command list, whose units are in source order: there
+// it is the first gap.
 Gap& firstGap(SourceProgram& source) {
   std::vector<Gap*> gaps;
   for (Unit& unit : source.program.units) {
@@ -36,7 +37,7 @@ Gap& firstGap(SourceProgram& source) {
   return at == gaps.end() ? *gaps[0] : **at;
 }
 
-// With one dialect statement, before all others.
+// Splits the preamble off the first gap; it begins with exactly one dialect statement.
 void splitPreamble(SourceProgram& source) {
   Gap& gap = firstGap(source);
   auto dialect = std::ranges::find(gap, Kind::Dialect, &Item::kind);
@@ -52,7 +53,7 @@ void splitPreamble(SourceProgram& source) {
 } // namespace
 
 SourceProgram readSource(const Language& language, SourceManager& sources, std::span<const FileId> files) {
-  Diagnostics heard; // all of it is reported
+  Diagnostics heard; // stays without errors: the program has been checked before
   Context context{.language = language, .sources = sources, .diagnostics = heard};
   context.gaps.keep();
   SourceProgram source{.sources = sources, .program = Program(language), .preamble = {}, .tail = {}};
@@ -144,7 +145,7 @@ Gap protect(Gap gap, std::string_view title) {
   return gap;
 }
 
-// A program as ladder text.
+// Writes a program as ladder text.
 
 namespace {
 
@@ -178,7 +179,8 @@ void LadderWriter::begin(const Unit& unit) {
                               command.operand.empty() ? "" : " ", command.operand));
 }
 
-// The title is after the word `rung` where it begins the last block of comments: so it is found again there.
+// The title goes after the word `rung` if it begins the last block of comments: the reader then finds it in the same
+// place.
 void LadderWriter::rung(Gap gap, std::string_view title) {
   const auto at = titleIn(gap);
   const auto isComment = [](const Item& item) { return item.kind == Kind::Comment; };
@@ -224,7 +226,7 @@ void LadderWriter::drawing(const Network& network) {
   }
 }
 
-// After `module SUB Pn` the blank line ends the condition, or says that the comments after it are none.
+// The blank line after `module SUB Pn` ends the condition, or shows that the comments after it are not a condition.
 void LadderWriter::network(const Network& network) {
   page_.blank();
   const std::string title = clean(network.title);
@@ -251,7 +253,7 @@ std::string writeLadder(const Language& language, const SourceProgram& source) {
   return LadderWriter(language, source).run();
 }
 
-// A program as a command list.
+// Writes a program as a command list.
 
 namespace {
 
@@ -272,7 +274,7 @@ private:
     pending_.insert(pending_.end(), gap.begin(), gap.end());
     return std::exchange(pending_, {});
   }
-  // Something with comments before it is set apart.
+  // Writes a gap; a blank line precedes it if it has items.
   void lead(const Gap& gap) {
     if (!gap.empty()) page_.blank();
     page_.gap(gap);
@@ -281,7 +283,7 @@ private:
   const Language& language_;
   const SourceProgram& source_;
   GapPage page_{language_, Form::List};
-  Gap pending_; // what the first level begins with: it has no command of its own
+  Gap pending_; // gap before the first level, which has no command that begins it
 };
 
 void ListWriter::command(const Written& command) {
@@ -315,7 +317,7 @@ void ListWriter::begin(const Unit& unit) {
 
 void ListWriter::end(const Unit& unit) {
   const bool isLevel = unit.kind == UnitKind::Level;
-  if (isLevel && unit.number + 1 != language_.levels.size()) return; // the next one begins with it
+  if (isLevel && unit.number + 1 != language_.levels.size()) return; // the next level begins with this command
   page_.blank();
   function(isLevel ? language_.endOf(unit.number) : language_.rowOf(Control::Spe));
 }

@@ -1,4 +1,4 @@
-// What lowering functions may use.
+// Helpers for the lowering of functions.
 #include "frontend/network/lower/lower_function.h"
 
 #include <fmt/format.h>
@@ -51,8 +51,8 @@ ir::ValueId Lowering::sinceLastRun() { return b.add(b.sub(b.now(), b.slotLoad(ro
 
 ir::SlotId Lowering::shared(const std::string& key, ir::Type type) { return module_.slot(key, type, 0, false); }
 
-// A unit that several levels run shares its state, but each level has a count of its own. What a level does after
-// another one in one slot belongs to the same scan.
+// Stores the current run count of each level. A unit that several levels run shares its state, but each level has its
+// own count. A level that runs later in the same slot belongs to the same scan.
 void Lowering::markRun() {
   for (const LevelState& level : module_.levels()) {
     if (!level.routines[routine_.unit].valid()) continue;
@@ -103,21 +103,21 @@ ir::SlotId Lowering::leaveTarget() { return module_.leaveTarget(); }
 
 // Ends, jumps, calls and the common line (§7.1, §7.16-7.18).
 
-// JMPE, COME, LBL: places only.
+// JMPE, COME and LBL only mark a place.
 void lowerMark(Lowering&) {}
 
-// END1, END2 and SPE: back to the caller, and of a level there is none.
+// END1, END2 and SPE return to the caller; a level ends.
 void lowerEnd(Lowering& f) { f.b.ret(); }
 
 // JMP and JMPB.
 void lowerJump(Lowering& f) { f.b.gotoRung(f.targetRung(), f.act()); }
 
-// CALL has a condition, CALLU none.
+// CALL has a condition; CALLU is unconditional.
 void lowerCall(Lowering& f) {
   f.b.call(f.callee(), f.function.row->control == Control::Call ? f.act() : ir::ValueId{});
 }
 
-// JMPC: every caller on the way looks at the slot (P43).
+// JMPC: every caller up to the main program checks the slot (P43).
 void lowerLeave(Lowering& f) {
   f.b.when(f.act(), [&] { f.b.slotStore(f.leaveTarget(), f.b.i32(f.network.target + 1)); });
   f.b.ret(f.act());

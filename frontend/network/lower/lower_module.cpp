@@ -1,4 +1,4 @@
-// The module around the networks: spaces, routines, tasks and the schedule of slots.
+// Builds the module that contains the networks: spaces, routines, tasks and the schedule of slots.
 #include "frontend/network/lower/lower_module.h"
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace rung::frontend::network {
 namespace {
 
-// Runs of bytes that are copied together although some between them are not needed.
+// Input bytes with a smaller gap between them are copied as one block.
 constexpr uint32_t kCopyGap = 8;
 
 uint32_t spaceFlags(AreaUse use) {
@@ -103,8 +103,8 @@ void ModuleLowering::addSymbols() {
   frontend::settleSymbols(*module_);
 }
 
-// Keys are made of the text alone; equal networks of one unit are distinguished by their order. The state of a function
-// belongs to the function, whatever its conditions are.
+// Keys depend on the text alone; identical networks of a unit are distinguished by their order. The state of a function
+// is keyed by the function, independent of its conditions.
 void ModuleLowering::makeKeys() {
   for (const Unit& unit : program_.units) {
     std::unordered_map<uint64_t, uint32_t> seen;
@@ -123,7 +123,7 @@ void ModuleLowering::makeKeys() {
   }
 }
 
-// Every network but the end of a unit is drawn, in the order of the sources, whatever unit it belongs to.
+// Numbers all networks but the ends of units in source order, across all units.
 void ModuleLowering::makeNumbers() {
   std::vector<const Network*> drawn;
   for (const Unit& unit : program_.units)
@@ -132,7 +132,7 @@ void ModuleLowering::makeNumbers() {
   for (const Network* network : drawn) numbers_.emplace(network, static_cast<uint32_t>(numbers_.size()) + 1);
 }
 
-// With the number of the level, counted from 1, where another one runs the unit, too.
+// The unit's name, with the number of the level (counted from 1) if several levels run the unit.
 std::string ModuleLowering::routineName(const LevelState& level, const Unit& unit) const {
   std::string name = nameOf(language_, unit);
   if (std::ranges::count(unit.runBy, true) > 1) name += fmt::format("@{}", level.level + 1);
@@ -185,7 +185,8 @@ void ModuleLowering::lowerRoutine(LevelState& level, uint32_t unitIndex) {
   }
 }
 
-// Timers grow by the time between two scans, however long that was (P23); window requests count scans (P48).
+// Rung that runs first in a level. Timers advance by the time between two scans, however long it was (P23); window
+// requests count scans (P48).
 void ModuleLowering::addClock(ir::Routine& routine, LevelState& level, const Unit& unit) {
   ir::Rung& rung = routine.rungs[0];
   const Network& first = unit.networks.front();
@@ -237,7 +238,7 @@ void ModuleLowering::addTask(const LevelState& level, uint32_t parts) {
       if (language_.areas[i].use == AreaUse::Input) addLatch(level, i);
 }
 
-// In every slot the levels in their order, each where it has its turn.
+// Builds the schedule: each slot runs the levels that are due, in order.
 void ModuleLowering::addScan(uint32_t parts) {
   const ir::Step advance{.op = RUNG_STEP_ADVANCE, .arg = execution_.slotUs};
   module_->fast.push_back(advance);
@@ -254,7 +255,7 @@ void ModuleLowering::addScan(uint32_t parts) {
   }
 }
 
-// What a level reads of an input area is copied when it begins.
+// Copies the input bytes that the level reads into its latch when the level begins.
 void ModuleLowering::addLatch(const LevelState& level, size_t area) {
   std::vector<ir::Copy>& begin = module_->tasks[level.level].begin;
   const std::vector<bool>& used = level.used[area];
@@ -271,7 +272,8 @@ void ModuleLowering::addLatch(const LevelState& level, size_t area) {
   }
 }
 
-// P4: a level works on a set of result registers of its own; between its runs they hold that of the main program.
+// P4: each level works on its own set of result registers; between its runs the registers hold those of the main
+// program.
 void ModuleLowering::addResultRegisters(const LevelState& level) {
   const auto [area, first] = std::pair(indexOf(execution_.results.area), execution_.results.byte);
   const uint32_t bytes = execution_.resultBytes;

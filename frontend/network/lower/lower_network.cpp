@@ -1,4 +1,4 @@
-// One network to one rung.
+// Lowers one network to one rung.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -9,7 +9,7 @@
 namespace rung::frontend::network {
 namespace {
 
-// The lines of a network as written.
+// The source lines of a network.
 std::string linesOf(const SourceManager& sources, const Network& network) {
   std::string text;
   for (uint32_t line = network.firstLine; line <= network.lastLine; ++line) {
@@ -73,8 +73,8 @@ std::vector<ir::ValueId> ModuleLowering::lowerLogic(LevelState& level, ir::RungB
   return stack;
 }
 
-// Inside a common line that is off, OUT writes 0, OUTI 1, and SET and RST do nothing (P41): all that is ST0 = 0. The
-// choice says that SET and RST write the bit and do not ask it (ir::RungUse::keeps).
+// Inside a common line that is off, OUT writes 0, OUTI writes 1, and SET and RST do nothing (P41): the same as with ST0
+// = 0. The select expresses that SET and RST write the bit without reading it (ir::RungUse::keeps).
 void ModuleLowering::lowerCoils(RoutineContext& routine, ir::RungBuilder& b, const Network& network, ir::ValueId value,
                                 const RungMarks& marks) {
   if (network.com != kNone) {
@@ -96,7 +96,7 @@ void ModuleLowering::lowerCoils(RoutineContext& routine, ir::RungBuilder& b, con
   }
 }
 
-// Gives the output. One that passes on a condition asks nothing of its own.
+// Returns the output. A function that only passes on a condition gets no result mark.
 ir::ValueId ModuleLowering::lowerFunction(RoutineContext& routine, ir::RungBuilder& b, uint32_t index,
                                           std::span<const ir::ValueId> conditions, const RungMarks& marks) {
   const Network& network = program_.units[routine.unit].networks[index];
@@ -126,7 +126,7 @@ void ModuleLowering::lowerNetwork(RoutineContext& routine, ir::Rung& rung, uint3
   if (!network.coils.empty()) lowerCoils(routine, b, network, value, marks);
 }
 
-// After a call that a JMPC may have left (P43): a subprogram returns at once, the main program continues at the
+// Follows a call that a JMPC may have left (P43): a subprogram returns at once, the main program continues at the
 // label.
 void ModuleLowering::addLeave(RoutineContext& routine, ir::Rung& rung, uint32_t next) {
   const ir::Rung& call = *(&rung - 1);

@@ -1,4 +1,4 @@
-// Both directions of the canonical decomposition.
+// Both directions of the canonical decomposition: commands to trees and back.
 #include "frontend/network/read/canonical.h"
 
 #include <algorithm>
@@ -40,7 +40,7 @@ private:
   uint32_t contacts_ = 0;
 };
 
-// Groups of the same kind are one group; the left one grows.
+// Joins the two topmost groups. Groups of the same kind are merged into the left one.
 bool TreeBuilder::block(Group kind) {
   if (stack_.size() < 2) return false;
   const uint32_t right = stack_.back();
@@ -61,7 +61,7 @@ bool TreeBuilder::block(Group kind) {
 SpTree TreeBuilder::copy(uint32_t root) const {
   SpTree tree;
   tree.nodes.emplace_back();
-  std::vector<std::pair<uint32_t, uint32_t>> work{{root, 0}}; // here, in the copy
+  std::vector<std::pair<uint32_t, uint32_t>> work{{root, 0}}; // (node here, node of the copy)
   while (!work.empty()) {
     const auto [from, to] = work.back();
     work.pop_back();
@@ -81,7 +81,7 @@ constexpr std::string_view kBlocks = "list:";
 
 bool isBlockCommand(Logic kind) { return kind == Logic::OrBlock || kind == Logic::AndBlock; }
 
-// Canonical; nothing where a command lacks a value.
+// Canonical form of the commands; empty if a command lacks a value.
 std::vector<Logic> canonicalLogic(std::span<const Logic> commands) {
   std::vector<Logic> result;
   if (const auto trees = treesOf(commands))

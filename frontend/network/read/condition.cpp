@@ -1,4 +1,4 @@
-// Comments to commands, and whether they are a condition.
+// Reads comments as commands, and checks whether they form a condition.
 #include "frontend/network/read/condition.h"
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 namespace rung::frontend::network {
 namespace {
 
-// The command of a comment line; nullopt for any other comment.
+// The command in a comment line; nullopt for any other comment.
 std::optional<Written> commandOf(const Language& language, const ladder::Comment& comment) {
   if (!comment.text.starts_with(kConditionComment)) return std::nullopt;
   const auto words = wordsIn(comment.text.substr(kConditionComment.size()));
@@ -22,7 +22,7 @@ std::optional<Written> commandOf(const Language& language, const ladder::Comment
                  .line = comment.line};
 }
 
-// Whether they leave one value on the stack, and every contact has a bit.
+// Whether the commands leave exactly one value on the stack and every contact is a bit.
 bool isCondition(const Context& context, const std::vector<Written>& commands) {
   if (!context.language.rowOf(Control::Sp).ignoresCondition) return false;
   std::vector<Logic> logic;

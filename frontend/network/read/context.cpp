@@ -25,7 +25,7 @@ bool isCommand(const Language& language, std::string_view text) {
          std::ranges::any_of(language.rows, [&](const Row* row) { return isIt(row->info.mnemonic); });
 }
 
-// A label or a subprogram.
+// Whether the text is a label or a subprogram.
 bool isNumbered(const Language& language, std::string_view text) {
   return parseDigits(text.substr(1)) && std::ranges::any_of(language.rows, [&](const Row* row) {
            return (row->control == Control::Lbl || row->control == Control::Sp) &&
@@ -33,7 +33,7 @@ bool isNumbered(const Language& language, std::string_view text) {
          });
 }
 
-// A name that cannot be taken for something else (P12).
+// Whether the text is a name that cannot mean anything else (P12).
 bool isFreeName(const Language& language, std::string_view text) {
   if (text.empty() || !text::isLetter(text[0]) || !std::all_of(text.begin(), text.end(), isNameChar)) return false;
   return !isNumbered(language, text) && !splitAddress(language, text) && !isCommand(language, text);
@@ -54,7 +54,7 @@ bool touchesPreset(const AreaInfo& area, uint32_t byte, uint32_t length) {
   return false;
 }
 
-// The range is checked by the caller, who knows the length.
+// Reads an address. The caller, who knows the length, checks the range.
 std::optional<NamedAddress> readAddress(Diagnostics& diagnostics, const AddressText& text, const Word& word) {
   NamedAddress address{{text.area, static_cast<uint32_t>(std::min<uint64_t>(text.byte, UINT32_MAX)), 0, text.hasPoint}};
   if (!text.hasPoint) return address;
@@ -70,7 +70,7 @@ std::optional<NamedAddress> readAddress(Diagnostics& diagnostics, const AddressT
 
 struct Found {
   std::optional<NamedAddress> address;
-  bool known = false; // as a name or by its shape; then nothing more is to be said about it
+  bool known = false; // a known name or address; no further error is reported
 };
 
 Found findAddress(Context& context, const Word& word) {
@@ -97,14 +97,15 @@ void suggestName(const Context& context, std::span<const UndeclaredName> uses, D
                             textOf(context.language, addressOf(context.language, *signal)), signal->meaning));
 }
 
-// Of an instruction, perhaps one of another control that is like none of these.
+// Suggests an instruction, or the list of all: the word may be an instruction of another control.
 void suggestInstruction(const Context& context, SourceRange range, const text::Likely& similar, DiagBuilder& report) {
   ladder::suggest(report, context.sources, range, similar);
   if (similar.word.empty())
     report.note(fmt::format("`rungc explain {}` lists the instructions by what they do", context.language.name));
 }
 
-// An address as IEC 61131 and Siemens write it: I1.5, %QX0.0, MW10. Those of this control are none here.
+// Whether the text is an address in the style of IEC 61131 or Siemens, which this control does not have: I1.5, %QX0.0,
+// MW10.
 bool isOtherAddress(std::string_view text) {
   if (text.starts_with('%')) text.remove_prefix(1);
   const size_t letters = std::min(text.find_first_not_of("BDEIMQWXbdeimqwx"), text.size());
@@ -118,19 +119,19 @@ std::string areasText(const Language& language) {
   return text;
 }
 
-// An operand that is negated as in other languages: /X1.0, -X1.0, NOT X1.0.
+// Whether the operand is negated in the style of other languages: /X1.0, -X1.0, NOT X1.0.
 bool isNegated(std::string_view operand) {
   return text::equalsIgnoringCase(operand, "NOT") ||
          (operand.size() > 1 && std::string_view("-/!~").find(operand[0]) != std::string_view::npos &&
           text::isLetter(operand[1]));
 }
 
-// Negated, or one of several with commas: another command alone would not do for it.
+// Whether the operand is negated or one of a list with commas; replacing the command alone would not fix the line.
 bool isForeignOperand(const Word& word) {
   return isNegated(word.text) || word.text.find(',') != std::string_view::npos;
 }
 
-// The name alone would be the bit that is not negated. False where the operand is not negated.
+// Explains how a bit is negated; the name alone would be the bit without negation. False if the operand is not negated.
 bool noteNegation(const Language& language, std::string_view operand, DiagBuilder& report) {
   if (!isNegated(operand)) return false;
   report.note(fmt::format("a bit is negated by its command: {}, {}, {} or {}; in a drawing a closed contact is [/x]",
@@ -139,7 +140,7 @@ bool noteNegation(const Language& language, std::string_view operand, DiagBuilde
   return true;
 }
 
-// K100, H1F and #100 of other controls.
+// Explains K100, H1F and #100 of other controls; false for anything else.
 bool noteLetter(std::string_view constant, DiagBuilder& report) {
   if (constant.size() < 2 || !text::isDigit(constant[1])) return false;
   const char mark = text::upper(constant[0]);
@@ -155,7 +156,7 @@ bool noteLetter(std::string_view constant, DiagBuilder& report) {
   return true;
 }
 
-// How a constant of another language is written here; false where it is none.
+// Explains how a constant of another language is written here; false if the name is not one.
 bool noteConstant(const UndeclaredName& use, DiagBuilder& report) {
   if (const auto time = frontend::foreignTime(use.name)) {
     report.note(fmt::format("{} in milliseconds: {}", use.name, time->milliseconds()));
@@ -173,7 +174,7 @@ bool noteConstant(const UndeclaredName& use, DiagBuilder& report) {
 
 std::string bothOf(std::span<const Word> words) { return fmt::format("{} {}", words[0].text, words[1].text); }
 
-// A line of another kind of text: a drawing, a comment, a label. False when it is none.
+// Explains a line of another kind of text: a drawing, a comment, a label. False if it is none of these.
 bool noteSyntax(const Language& language, std::string_view word, DiagBuilder& report) {
   if (word.starts_with('|') || word.starts_with('+'))
     report.note(
@@ -204,7 +205,7 @@ void explain(const Context& context, std::span<const UndeclaredName> uses, DiagB
     report.note("areas of this control: " + areasText(context.language));
 }
 
-// [x>5]: comparisons are functions.
+// Reports [x>5]: comparisons are functions.
 void reportComparison(Context& context, const Word& word) {
   DiagBuilder report = context.diagnostics.report(diag::BadOperand, word.range);
   report << word.text << "a bit";
@@ -212,7 +213,8 @@ void reportComparison(Context& context, const Word& word) {
     report.note(fmt::format("a comparison is {}", function->here));
 }
 
-// A word that is an address is one also where the table has a signal of that name: T00 to T31.
+// Reports a byte address where a bit is expected. T00 to T31 are addresses although the table has signals of these
+// names.
 void reportNoBit(Context& context, const Word& word, const Address& address) {
   DiagBuilder report = context.diagnostics.report(diag::BitAddressExpected, word.range);
   report << word.text;
@@ -361,7 +363,7 @@ void reportUnknownFunction(Context& context, std::string_view name, SourceRange 
 }
 
 void unknownOperand(Context& context, const Word& word, UserName::Kind kind, std::string_view expected) {
-  if (context.names.wasRefused(word.text)) return; // its declaration was reported
+  if (context.names.wasRefused(word.text)) return; // its declaration has been reported
   const UndeclaredName use{{word.text, word.range}, kind, std::string(expected)};
   if (isFreeName(context.language, word.text) && !context.names.has(word.text))
     return context.names.noteUndeclared(use);

@@ -1,4 +1,4 @@
-// Comments to commands.
+// Attaches comments to commands.
 #include "frontend/network/read/drawn_comments.h"
 
 #include <fmt/format.h>
@@ -16,7 +16,7 @@
 namespace rung::frontend::network {
 namespace {
 
-// A parameter by the name of its operand, a table row by its number.
+// Tag of a parameter: the name of its operand, or the number of a table row.
 std::string parameterText(const Language& language, const Row& row, Command command, size_t index) {
   if (command == Command::Table) return fmt::format("{{{} {} {}}}", row.info.mnemonic, language.nameOf(command), index);
   return fmt::format("{{{} {}}}", row.info.mnemonic, row.info.operands[index].name);
@@ -42,7 +42,7 @@ private:
 
   const Language& language_;
   Network& network_;
-  std::map<uint32_t, LineEnds> ends_; // by line
+  std::map<uint32_t, LineEnds> ends_; // per line
   std::vector<std::string> tags_;
 };
 
@@ -53,7 +53,7 @@ void Attachment::before(uint32_t command, std::string text) {
     written()[command].before.push_back(std::move(text));
 }
 
-// The first one; further ones are lines before it.
+// Adds the comment after a command; a second one becomes a line before it.
 void Attachment::after(uint32_t command, std::string text) {
   std::string& comment = written()[command].comment;
   if (comment.empty() && !text.empty())
@@ -79,7 +79,7 @@ bool Attachment::byTag(std::string_view text) {
   for (uint32_t i = 0; i < tags_.size(); ++i) {
     if (!text.starts_with(tags_[i])) continue;
     const std::string_view rest = text.substr(tags_[i].size());
-    if (!rest.empty() && rest[0] != ' ') continue; // [A] of [A]#2
+    if (!rest.empty() && rest[0] != ' ') continue; // [A] must not match [A]#2
     std::string own(text::trimmed(rest));
     if (isBefore)
       before(i, std::move(own));
@@ -90,7 +90,7 @@ bool Attachment::byTag(std::string_view text) {
   return false;
 }
 
-// Before the next line of the drawing with an element.
+// Attaches a comment line to the next line of the drawing that has an element.
 void Attachment::line(const ladder::Comment& comment, bool isAbove) {
   std::string text = clean(comment.text);
   if (byTag(text)) return;
@@ -154,7 +154,7 @@ void attachComments(const Language& language, const ladder::Rung& rung, Network&
   }
 }
 
-// Comments to titles.
+// Comments as titles.
 
 namespace {
 

@@ -1,4 +1,4 @@
-// Lines to items, and to what they belong.
+// Collects the lines between networks as items, and assigns them to what they belong to.
 #include "frontend/network/read/gaps.h"
 
 #include <iterator>

@@ -1,4 +1,4 @@
-// Drawings to calls of the network builder.
+// Translates drawings into calls of the network builder.
 #include "frontend/network/read/ladder_reader.h"
 
 #include <algorithm>
@@ -40,19 +40,19 @@ Coil coilOf(ladder::CoilKind kind) {
 
 Place placeOf(const Element& element) { return {element.range, element.line}; }
 
-// What is said of a rung beside its drawing.
+// Text that belongs to a rung beside its drawing.
 struct RungText {
   std::string_view title;
-  std::optional<std::vector<Logic>> blocks; // as a hint has them
+  std::optional<std::vector<Logic>> blocks; // from a hint in a comment
 };
 
-// The shape of one rung: which box, which coils, and whether a command list can say it.
+// Reads one rung: finds its box and coils, and checks that a command list can express it.
 class RungReader {
 public:
   RungReader(Context& context, NetworkBuilder& builder, const ladder::Rung& rung, const RungText& text)
       : context_(context), diagnostics_(context.diagnostics), builder_(builder), rung_(rung), text_(text) {}
 
-  // False when the drawing was rejected; it was reported, and nothing has reached the builder.
+  // False if the drawing was rejected and reported; the builder has then received nothing.
   bool read();
 
 private:
@@ -75,7 +75,7 @@ private:
   const RungText& text_;
   const Element* box_ = nullptr;
   const Row* row_ = nullptr;
-  std::vector<const Element*> coils_; // from top to bottom
+  std::vector<const Element*> coils_; // sorted from top to bottom
   std::vector<SpTree> inputs_;
 };
 
@@ -100,7 +100,7 @@ bool RungReader::checkKind(const Element& element) {
   return true;
 }
 
-// What is on the left of an element. Contacts may follow contacts only; coils may follow a box (GSK: l.3562).
+// Checks what is on the left of an element: contacts may follow only contacts, coils also a box (GSK: l.3562).
 bool RungReader::checkLeft(const Element& element) {
   for (const ladder::Pin& pin : rung_.pinsOf(element)) {
     for (ElementId id : rung_.driversOf(pin.input)) {
@@ -117,7 +117,7 @@ bool RungReader::checkLeft(const Element& element) {
   return true;
 }
 
-// One below the other may be meant as one box with more pins than there are.
+// Reports a second box. Two boxes one below the other may be meant as one box with more pins than it has.
 void RungReader::reportSecondBox(const Element& element) {
   const Row* row = context_.language.findFunction(box_->mnemonic);
   if (context_.language.findFunction(element.mnemonic) == nullptr && element.column == box_->column)
@@ -129,7 +129,7 @@ void RungReader::reportSecondBox(const Element& element) {
     diagnostics_.report(diag::MultiLevelOutput, element.range);
 }
 
-// Finds the box and the coils; a network has one function at most.
+// Sorts the elements into box and coils; a network has at most one function.
 bool RungReader::sort() {
   bool good = true;
   for (const Element& element : rung_.elements) {
@@ -186,7 +186,7 @@ bool RungReader::checkPins() {
   return true;
 }
 
-// All coils on one net: that of the contacts, or the box's output and nothing else.
+// Checks that all coils are on one net: that of the contacts, or the box's output and nothing else.
 bool RungReader::checkCoils() {
   if (coils_.empty()) {
     if (row_ != nullptr && row_->info.output == frontend::Output::Always)
@@ -277,13 +277,13 @@ bool RungReader::read() {
   return true;
 }
 
-// The function of a box may begin or end a region, be a label or a call.
+// Whether the box may begin or end a region, or be a label or a call. Unknown boxes may.
 bool mayShapeProgram(const Language& language, std::string_view mnemonic) {
   const Row* row = language.findFunction(mnemonic);
   return row == nullptr || row->control != Control::Plain;
 }
 
-// Whether a region, label or call may be lost with a rung that is rejected.
+// Whether a rejected rung may contain a region, label or call.
 bool mayShapeProgram(const Context& context, const ladder::Rung& rung) {
   return std::ranges::any_of(rung.elements, [&](const Element& element) {
     if (element.kind == ElementKind::Error)
@@ -335,7 +335,7 @@ private:
   const ladder::Rung* rung_ = nullptr;
   uint32_t unit_ = kNone;
   TitleRule title_;
-  size_t next_ = 0; // statement
+  size_t next_ = 0; // index of the next statement
 };
 
 void LadderReader::readStatement(const ladder::Statement& statement) {
@@ -373,7 +373,7 @@ void LadderReader::module(const ladder::Module& module, std::string_view comment
   if (level) {
     unit_ = units_.openLevel(*level, module.range);
   } else if (module.name.size() == 2 && text::equalsIgnoringCase(module.name[0].text, language.subprogram)) {
-    // The operand of SP, checked like one.
+    // The subprogram's number is checked like the operand of SP.
     Function sp{.row = &language.rowOf(Control::Sp), .range = module.range};
     if (checkFunction(context_, {module.name[1]}, {}, sp))
       unit_ = units_.openSubprogram(static_cast<uint32_t>(sp.params[0].value), module.range, module.name[1].range);
@@ -389,7 +389,8 @@ void LadderReader::module(const ladder::Module& module, std::string_view comment
   unit.condition = std::move(condition);
 }
 
-// Warned of and counted as in a command list (P1, P13).
+// Reads the condition of a subprogram from comments. It is warned of and its steps are counted as in a command list
+// (P1, P13).
 std::vector<Written> LadderReader::condition() {
   const auto rest = std::span(file_.statements).subspan(next_);
   const auto end = std::ranges::find_if(rest, [](const auto& one) { return one.kind != StatementKind::Comment; });
@@ -404,7 +405,7 @@ std::vector<Written> LadderReader::condition() {
   return commands;
 }
 
-// The title is the text after the word `rung`; where there is none that can be one, the rule of command lists.
+// The title is the text after the word `rung`; if that cannot be a title, the rule of command lists applies.
 void LadderReader::readRung(const ladder::Rung& rung, std::string_view comment) {
   rung_ = &rung;
   if (unit_ == kNone) return; // reported with the module
@@ -416,7 +417,7 @@ void LadderReader::readRung(const ladder::Rung& rung, std::string_view comment) 
   if (rung.bad || !reader.read()) readRejected(rung);
 }
 
-// The drawing of a rung was reported; its operands are looked at all the same.
+// Checks the operands of a rung whose drawing was rejected.
 void LadderReader::readRejected(const ladder::Rung& rung) {
   if (mayShapeProgram(context_, rung)) units_.setIncomplete();
   for (const Element& element : rung.elements) readOperands(rung, element);

@@ -1,4 +1,4 @@
-// Lines of a command list to calls of the network builder.
+// Translates lines of a command list into calls of the network builder.
 #include "frontend/network/read/list_reader.h"
 
 #include <fmt/format.h>
@@ -85,20 +85,21 @@ void ListReader::readStatement(std::span<const Word> words) {
   builder_.comment(words_.comment);
 }
 
-// What it declares was read before all networks (readListSymbols).
+// Records a declaration as an item of the gap. Its content was read before all networks (readListSymbols).
 void ListReader::declaration(Command command, std::span<const Word> words) {
   const auto kind = command == Command::Symbol ? Item::Kind::Symbol : Item::Kind::Const;
   if (words.size() == 1 + operandCount(command)) context_.gaps.declaration(kind, words[1], words[2], words_.comment);
 }
 
-// A drawing is reported at its first line.
+// Reports an unknown command; a drawing is reported only at its first line.
 void ListReader::unknownCommand(std::span<const Word> words) {
   const bool drawing = words[0].text.starts_with('|') || words[0].text.starts_with('+');
   if (!drawing || !sawDrawing_) reportUnknownCommand(context_, words);
   sawDrawing_ = sawDrawing_ || drawing;
 }
 
-// The command counts with an operand that nothing is said about any more; of FUNC nothing is left.
+// Keeps a command whose operand was rejected, with an empty operand that causes no further errors. FUNC without its
+// operand is dropped.
 void ListReader::lostOperand(Command command, const Word& name, Place at) {
   if (command == Command::Function) return builder_.garbage(at);
   const Word words[] = {name, Word{}};
@@ -122,7 +123,7 @@ const Row* ListReader::functionOf(const Word& word) {
   return row;
 }
 
-// The ends of units are not drawn in ladder form: they have no title.
+// Functions that end a unit do not appear in ladder form, so they have no title.
 void ListReader::function(const Word& name, Place at) {
   const Row* row = functionOf(name);
   if (row != nullptr && isEnd(row->control)) builder_.title({});
@@ -149,7 +150,7 @@ void readListSymbols(Context& context, FileId file) {
     const auto statement = statementOf(words);
     const auto command = statement.empty() ? std::nullopt : findCommand(context.language, statement[0].text);
     if (!command || !isDeclaration(*command)) continue;
-    if (!isReadable(statement)) continue; // the reader of the list reports it
+    if (!isReadable(statement)) continue; // reported when the list is read
     if (!checkOperands(context.language, context.diagnostics, *command, statement)) continue;
     if (*command == Command::Symbol)
       context.names.addSymbol(context, statement[1], statement[2], words.comment);
@@ -168,7 +169,7 @@ SourceRange lastLineOf(const SourceManager& sources, FileId file) {
   return sources.range(file, begin == std::string_view::npos ? 0 : begin + 1, last + 1);
 }
 
-// Statements of a command list by themselves; see the header.
+// Checks of single statements of a command list (see list_reader.h).
 
 namespace {
 
@@ -182,11 +183,10 @@ std::string_view wantedOperand(Command command) {
   return "`const NAME VALUE`";
 }
 
-// Only these may appear outside comments.
+// Characters that are allowed outside comments.
 bool isPlain(char c) { return c >= 0x21 && c <= 0x7E; }
 
-// What other languages write in brackets, as comparisons, or as bits of timers: `AND ( X0.1`, `LD D0 = 1`, `OUT T1
-// K50`.
+// Explains brackets, comparisons and bits of timers of other languages: `AND ( X0.1`, `LD D0 = 1`, `OUT T1 K50`.
 void noteForeign(const Language& language, std::span<const Word> words, DiagBuilder& report) {
   const bool compares = words[2].text.find_first_not_of("<>=!") == std::string_view::npos;
   const std::string word = compares ? "CMP" : words[1].text == "(" ? fmt::format("{}(", words[0].text) : "";
@@ -197,7 +197,7 @@ void noteForeign(const Language& language, std::span<const Word> words, DiagBuil
     report.note(language.at(address->area).instead);
 }
 
-// A word too many; what other languages have there.
+// Reports a surplus word, and explains what other languages write there.
 void reportSurplus(const Language& language, Command command, std::span<const Word> words, Diagnostics& diagnostics) {
   const Word& word = words[operandCount(command) + 1];
   DiagBuilder report = diagnostics.report(diag::BadOperand, word.range);
@@ -219,7 +219,7 @@ void reportSurplus(const Language& language, Command command, std::span<const Wo
 
 size_t operandCount(Command command) { return isBlock(command) ? 0 : isDeclaration(command) ? 2 : 1; }
 
-// Of a language whose comments begin otherwise.
+// Whether the word begins a comment of another language.
 bool looksLikeComment(std::string_view word) {
   constexpr std::string_view kBegins[] = {"//", "/*", "(*", "#"};
   return std::ranges::any_of(kBegins, [&](std::string_view begin) { return word.starts_with(begin); });
@@ -244,7 +244,7 @@ bool isReadable(std::span<const Word> words) {
                      [](const Word& word) { return std::all_of(word.text.begin(), word.text.end(), isPlain); });
 }
 
-// Outside comments only printable ASCII may appear: the manual's scan has look-alikes of other alphabets.
+// Outside comments only printable ASCII is allowed: the manual's scan contains look-alikes of other alphabets.
 bool checkCharacters(Diagnostics& diagnostics, std::span<const Word> words) {
   for (const Word& word : words) {
     const auto bad = std::find_if_not(word.text.begin(), word.text.end(), isPlain);

@@ -1,4 +1,4 @@
-// The stack register at compile time (P11) and the borders of networks.
+// Models the stack register at compile time (P11) and determines where networks begin and end.
 #include "frontend/network/read/network_builder.h"
 
 #include <iterator>
@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::string_view kNumbers[] = {"no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine"};
 
-// Of blocks: at most as many as the stack holds.
+// A number of blocks as a word; never more than the stack holds.
 std::string numberWord(size_t number) {
   return number < std::size(kNumbers) ? std::string(kNumbers[number]) : fmt::format("{}", number);
 }
@@ -67,7 +67,7 @@ void NetworkBuilder::stackError(Place at, std::string_view what) {
   silent_ = true;
 }
 
-// At an output: what joins the blocks is missing, or the output of the first one.
+// Reports open blocks at an output: the command that joins them is missing, or the output of the first.
 void NetworkBuilder::openBlocks(Place at) {
   network_.bad = true;
   if (!silent_) {
@@ -89,13 +89,13 @@ bool NetworkBuilder::mayHaveCoils() const {
   return network_.function.row == nullptr || network_.function.row->info.output != frontend::Output::None;
 }
 
-// A contact or block command where no logic is under way.
+// Reports a contact or block command outside the logic of a network.
 void NetworkBuilder::contactOutOfPlace(Place at) {
   if (state_ == State::Outputs || (state_ == State::Function && mayHaveCoils())) {
     network_.bad = true;
     if (!silent_) context_.diagnostics.report(diag::MultiLevelOutput, at.range);
     silent_ = true;
-    state_ = State::Outputs; // an output that is missing is part of this error
+    state_ = State::Outputs; // no further error for the missing output
   } else {
     begin(at);
     stackError(at, fmt::format("{}; there is no value to combine with", beginsWith()));
@@ -157,7 +157,7 @@ void NetworkBuilder::coil(Coil kind, const Word& operand, Place at) {
     network_.bad = true;
 }
 
-// As many values as the function has conditions; some may have one that is ignored (P13).
+// Checks that there are as many values as the function has conditions; some functions ignore a condition (P13).
 void NetworkBuilder::checkConditions(const Row& row, Place at) {
   if (silent_) return;
   const auto wanted = static_cast<uint32_t>(row.info.pins.size());
@@ -211,7 +211,7 @@ void NetworkBuilder::parameter(const Word& operand, Place at) {
   }
 }
 
-// Where the line of a function is missing nothing can be said about the network.
+// Suppresses further errors in a network whose function line is missing.
 void NetworkBuilder::functionIsLost() {
   if (state_ == State::Logic) network_.bad = network_.incomplete = silent_ = true;
 }

@@ -1,4 +1,4 @@
-// Parameters of function commands, checked by the rows of the table.
+// Checks the parameters of function commands against the instruction table.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -14,7 +14,7 @@ namespace {
 using frontend::Access;
 using frontend::OperandInfo;
 
-// The value of a plain constant or of a `const` name.
+// The value of a literal constant or of a `const` name.
 std::optional<int64_t> constantWord(Context& context, const Word& word, std::string_view expected) {
   if (const uint32_t index = context.names.use(word, UserName::Kind::Constant); index != frontend::kNoName)
     return context.names[index].bad ? std::nullopt : std::optional(context.names[index].value);
@@ -23,13 +23,13 @@ std::optional<int64_t> constantWord(Context& context, const Word& word, std::str
   return value;
 }
 
-// A constant may be written signed or unsigned (§6.4).
+// Whether a constant fits into `length` bytes, written signed or unsigned (§6.4).
 bool fits(int64_t value, uint32_t length) {
   const uint32_t bits = length * 8;
   return value >= -(int64_t{1} << (bits - 1)) && value < (int64_t{1} << bits);
 }
 
-// One number; of a block or a table the cells may have names of their own.
+// Whether the operand is one number; the cells of a block or table may have names of their own.
 bool isVariable(const OperandKind& kind) {
   return !kind.rest && (kind.length == Length::OfKind || kind.length == Length::OfFormat);
 }
@@ -73,7 +73,7 @@ uint32_t ParameterCheck::lengthOf(const OperandKind& kind) const {
   return 1;
 }
 
-// `1`, `2`, `4` with any leading zeros; a00n: up to four digits (P20).
+// Checks a format: `1`, `2` or `4` with any leading zeros; a00n has exactly four digits (P20).
 bool ParameterCheck::checkFormat(const Word& word, Param& param) {
   const bool selects = param.kind->selects;
   const auto digits = parseDigits(word.text);
@@ -107,7 +107,7 @@ bool ParameterCheck::checkNumber(const OperandInfo& info, const Word& word, Para
   return true;
 }
 
-// Where the format says whether a value is a constant or an address: that it does. A table's row has no kind.
+// Adds to `expected` why the format asks for a constant or an address. `kind` is null for the row of a table.
 std::string ParameterCheck::expectedBy(const OperandKind* kind, std::string_view expected) const {
   if (kind == nullptr || !kind->constant || !kind->address) return std::string(expected);
   const auto format = [&](bool address) { return fmt::format("{}00{}", address ? 1 : 0, function_.length); };
@@ -136,7 +136,7 @@ bool ParameterCheck::checkMask(const Word& word, Param& param) {
   return true;
 }
 
-// Labels and subprograms. Number 0 appears in two places of the manual and is accepted (P2).
+// Checks the number of a label or subprogram. Number 0 occurs at two places of the manual and is accepted (P2).
 bool ParameterCheck::checkNamed(const OperandInfo& info, const Word& word, Param& param) {
   const std::string_view letter = param.kind->written.substr(0, 1);
   const bool named = !word.text.empty() && text::upper(word.text[0]) == letter[0];
@@ -161,7 +161,7 @@ bool ParameterCheck::checkNamed(const OperandInfo& info, const Word& word, Param
   return true;
 }
 
-// Some kinds have an area of their own, whatever their length.
+// Checks the area of an operand whose kind requires one, whatever its length.
 bool ParameterCheck::checkPlace(const Word& word, const OperandKind& kind) {
   if (!kind.area) return true;
   const auto first = byteOperand(context_, word, 1);
@@ -187,7 +187,7 @@ bool ParameterCheck::checkAddress(const OperandInfo& info, const Word& word, Par
   return info.access == Access::Read || checkWritable(context_, *address, length, word.range);
 }
 
-// An operand without a place was reported where it was read.
+// Whether the operand was already rejected where it was read; its range is then invalid.
 bool ParameterCheck::lost(const Word& word, const Param& param) {
   if (word.range.valid()) return false;
   if (param.kind->parse == OperandClass::Format) lengthKnown_ = false;
@@ -196,7 +196,8 @@ bool ParameterCheck::lost(const Word& word, const Param& param) {
 
 bool ParameterCheck::checkValue(const OperandInfo& info, const Word& word, Param& param) {
   const OperandKind& kind = *param.kind;
-  if (kind.constant && kind.address && !lengthKnown_) return false; // whether it is a constant is not known either
+  if (kind.constant && kind.address && !lengthKnown_)
+    return false; // it is unknown whether a constant or an address is expected
   const bool isConstant = kind.constant && (!kind.address || constantOperand_);
   return isConstant ? checkConstant(word, param) : checkAddress(info, word, param);
 }
@@ -212,7 +213,7 @@ bool ParameterCheck::checkOne(const OperandInfo& info, const Word& word, Param& 
   return false;
 }
 
-// A timer or counter with a preset elsewhere, and the one that takes as many parameters as there are.
+// Mentions the variant of a timer or counter with its preset elsewhere, which takes this number of parameters.
 void ParameterCheck::noteSibling(DiagBuilder& report, size_t parameters) const {
   const frontend::InstructionInfo& info = function_.row->info;
   const auto& rows = context_.language.rows;
@@ -226,7 +227,7 @@ void ParameterCheck::noteSibling(DiagBuilder& report, size_t parameters) const {
 
 bool ParameterCheck::check(const std::vector<Word>& words) {
   const auto operands = function_.row->info.operands.all();
-  if (words.size() != operands.size()) { // it is unknown which one is missing
+  if (words.size() != operands.size()) { // it is unknown which parameter is missing
     DiagBuilder report = context_.diagnostics.report(diag::WrongParameterCount, function_.range);
     report << function_.row->info.mnemonic << operands.size() << words.size();
     std::string names;

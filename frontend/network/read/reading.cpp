@@ -1,4 +1,4 @@
-// Files to the networks of a program.
+// Reads files into the networks of a program.
 #include "frontend/network/read/reading.h"
 
 #include "frontend/network/read/ladder_reader.h"
@@ -6,7 +6,7 @@
 
 namespace rung::frontend::network {
 
-// By the name; where it does not say, ladder text is what has modules or rungs.
+// Decided by the file's name; if that is not conclusive, text with modules or rungs is ladder text.
 bool isLadder(const Language& language, const SourceManager& sources, FileId file) {
   const std::string_view name = sources.name(file);
   if (name.ends_with(".lad")) return true;
@@ -22,7 +22,7 @@ bool isLadder(const Language& language, const SourceManager& sources, FileId fil
 
 void Reading::add(FileId file) {
   if (isLadder(context_.language, context_.sources, file))
-    ladders_.push_back(parseLadderFile(context_, file)); // checks the encoding itself
+    ladders_.push_back(parseLadderFile(context_, file)); // checks the encoding as well
   else if (checkEncoding(context_.sources, file, context_.diagnostics))
     lists_.push_back(file);
   else

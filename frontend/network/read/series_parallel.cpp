@@ -13,14 +13,14 @@ using ladder::ElementId;
 using ladder::NetId;
 using Kind = SpTree::Kind;
 
-// Where a branch is in the drawing: its topmost, then leftmost element.
+// Position of a branch in the drawing: that of its topmost, then leftmost element.
 struct Spot {
   uint32_t line = 0;
   uint32_t column = 0;
   auto operator<=>(const Spot&) const = default;
 };
 
-// Groups of two; flattened when the reduction is done.
+// A group of two; flattened after the reduction.
 struct Pair {
   Kind kind = Kind::Contact;
   ElementId contact;
@@ -54,7 +54,7 @@ public:
 
 private:
   struct Side {
-    std::vector<uint32_t> edges; // with dead ones
+    std::vector<uint32_t> edges; // including dead edges
     uint32_t alive = 0;
   };
 
@@ -69,7 +69,7 @@ private:
   }
   uint32_t onlyAlive(std::vector<uint32_t>& edges) {
     while (!edges_[edges.back()].alive) edges.pop_back();
-    // Dead edges may lie before the one that lives as well.
+    // Dead edges may remain before the last one, which is alive.
     return edges.back();
   }
   SpTree flatten(uint32_t pair) const;
@@ -77,16 +77,16 @@ private:
 
   const ladder::Rung& rung_;
   uint32_t target_;
-  std::vector<Side> ins_; // by net
+  std::vector<Side> ins_; // per net
   std::vector<Side> outs_;
   std::vector<Edge> edges_;
   std::vector<Pair> pairs_;
-  std::unordered_map<uint64_t, uint32_t> between_; // living edge between two nets
+  std::unordered_map<uint64_t, uint32_t> between_; // live edge between two nets
   std::vector<uint32_t> work_;
   uint32_t aliveEdges_ = 0;
 };
 
-// All contacts that lead to the target.
+// Collects all contacts on paths to the target.
 void Reduction::collect() {
   std::vector<bool> seen(rung_.nets.size(), false);
   std::vector<uint32_t> nets{target_};
@@ -140,7 +140,7 @@ void Reduction::removeEdge(uint32_t edge) {
 }
 
 void Reduction::joinSeries(uint32_t net) {
-  if (ins_[net].alive != 1 || outs_[net].alive != 1) return; // joined before
+  if (ins_[net].alive != 1 || outs_[net].alive != 1) return; // already joined
   const uint32_t left = onlyAlive(ins_[net].edges);
   const uint32_t right = onlyAlive(outs_[net].edges);
   removeEdge(left);
@@ -148,7 +148,7 @@ void Reduction::joinSeries(uint32_t net) {
   addEdge(edges_[left].from, edges_[right].to, join(Kind::Series, edges_[left].pair, edges_[right].pair));
 }
 
-// The members of a group, groups of the same kind inside it dissolved.
+// The members of a group; nested groups of the same kind are flattened.
 std::vector<uint32_t> Reduction::members(uint32_t pair) const {
   std::vector<uint32_t> result;
   std::vector<uint32_t> stack{pair};
@@ -170,7 +170,7 @@ std::vector<uint32_t> Reduction::members(uint32_t pair) const {
 SpTree Reduction::flatten(uint32_t root) const {
   SpTree tree;
   tree.nodes.emplace_back();
-  std::vector<std::pair<uint32_t, uint32_t>> work{{root, 0}}; // pair, node
+  std::vector<std::pair<uint32_t, uint32_t>> work{{root, 0}}; // (pair, node)
   while (!work.empty()) {
     const auto [pair, node] = work.back();
     work.pop_back();

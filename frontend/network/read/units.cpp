@@ -1,4 +1,4 @@
-// Units of a program (§1.2): the levels, each with its end, then subprograms.
+// Assembles the units of a program (§1.2): the levels, each with its end, then subprograms.
 #include "frontend/network/read/units.h"
 
 #include <algorithm>
@@ -36,8 +36,7 @@ void UnitAssembler::body(Network&& network) {
   if (current_ != kNone) return program_.units[current_].networks.push_back(std::move(network));
   if (!strayReported_ && !network.incomplete) stray_.push_back(network.range);
   strayReported_ = true;
-  program_.units[levelCount() - 1].networks.push_back(
-      std::move(network)); // labels, calls and regions in it are there all the same
+  program_.units[levelCount() - 1].networks.push_back(std::move(network)); // its labels, calls and regions still count
 }
 
 uint32_t UnitAssembler::nextEnded(uint32_t level) const {
@@ -65,7 +64,7 @@ void UnitAssembler::endLevel(Network&& network) {
   program_.units[level].networks.push_back(std::move(network));
 }
 
-// Of the commands that a unit begins with. It has one comment; the others go before it.
+// Moves the source text of the commands that begin a unit. A unit has one comment; further comments are put before it.
 void UnitAssembler::takeSource(Unit& unit, Network& network) {
   unit.lead = std::move(network.gap);
   const auto toLead = [&unit](const std::string& text) { unit.lead.push_back(commentItem(text)); };
@@ -80,7 +79,7 @@ void UnitAssembler::takeSource(Unit& unit, Network& network) {
   }
 }
 
-// Of the end of a unit, which ladder text does not have: it goes to what comes next.
+// The end of a unit does not exist in ladder text: its comments go to the next item.
 void UnitAssembler::giveBackSource(Network& network) {
   if (network.written.empty()) return;
   if (!network.written[0].comment.empty()) network.gap.push_back(commentItem(network.written[0].comment));
@@ -88,7 +87,7 @@ void UnitAssembler::giveBackSource(Network& network) {
 }
 
 void UnitAssembler::endOrder(uint32_t level, uint32_t later, SourceRange range) {
-  stray_.clear(); // what is between them is misplaced for that reason alone
+  stray_.clear(); // networks between the two ends are misplaced only because of their order
   strayReported_ = false;
   context_.diagnostics.report(diag::EndOrder, range)
       << language_.fullNameOf(language_.endOf(level)) << language_.fullNameOf(language_.endOf(later));
@@ -105,11 +104,11 @@ uint32_t UnitAssembler::openSubprogram(uint32_t number, SourceRange range, Sourc
   return index;
 }
 
-// Two subprograms begin without an SPE between them: one inside the other, or the SPE of the first was forgotten, which
-// only shows when the second one is closed.
+// A second subprogram begins without an SPE in between: it is nested, or the SPE of the first was forgotten. Which of
+// the two is known only when the second one is closed.
 void UnitAssembler::nest(SourceRange inner) {
   if (open_.back().closedInner) {
-    open_.back().closedInner = false; // forgotten: this one is beside the second
+    open_.back().closedInner = false; // the SPE was forgotten: this subprogram is beside the second
   } else {
     context_.diagnostics.report(diag::NestedSubprogram, inner)
         .note(program_.units[open_.back().unit].range, "the outer one begins here");
@@ -125,7 +124,7 @@ void UnitAssembler::beginSubprogram(Network& network) {
   else if (current_ != kNone)
     misplaced_.push_back(range);
   const uint32_t outside = current_;
-  if (network.function.params.empty() || network.function.params[0].bad) { // reported; its number is not known
+  if (network.function.params.empty() || network.function.params[0].bad) { // already reported; its number is unknown
     program_.units.push_back(Unit{.kind = UnitKind::Subprogram, .number = kNone, .range = range, .nameRange = range});
     current_ = static_cast<uint32_t>(program_.units.size()) - 1;
     incomplete_ = true;
@@ -151,7 +150,7 @@ void UnitAssembler::endSubprogram(Network&& network) {
   if (!open_.empty()) open_.back().closedInner = true;
 }
 
-// At an end: the subprogram that is still open.
+// Reports the subprogram that is still open at an end.
 void UnitAssembler::closeAll() {
   if (!open_.empty() && !nestedReported_ && !incomplete_)
     context_.diagnostics.report(diag::MissingSpe, program_.units[current_].range)
@@ -162,7 +161,7 @@ void UnitAssembler::closeAll() {
 void UnitAssembler::endOfList(SourceRange lastLine) {
   const std::string_view last = lastEnd().info.mnemonic;
   for (SourceRange range : stray_) context_.diagnostics.report(diag::CodeAfterEnd2, range) << last;
-  if (!ends_.back().valid() && misplaced_.size() > 1) misplaced_.resize(1); // the missing end is the mistake
+  if (!ends_.back().valid() && misplaced_.size() > 1) misplaced_.resize(1); // only the missing end is reported
   for (SourceRange range : misplaced_) context_.diagnostics.report(diag::SubprogramMisplaced, range) << last;
   closeAll();
   if (incomplete_) return;
@@ -188,7 +187,7 @@ uint32_t UnitAssembler::openLevel(uint32_t level, SourceRange module) {
   return level;
 }
 
-// Ladder modules draw neither ends nor SP; converted into commands they are steps all the same (P1).
+// Adds the ends. Ladder modules draw neither ends nor SP, but these count as steps when converted to commands (P1).
 void UnitAssembler::finish(SourceRange anywhere) {
   for (Unit& unit : program_.units) {
     if (!unit.networks.empty() && isEnd(controlOf(unit.networks.back()))) continue;

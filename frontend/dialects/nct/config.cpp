@@ -1,4 +1,4 @@
-// Reading the configuration (see config.h).
+// Reads the configuration (see config.h).
 #include "frontend/dialects/nct/config.h"
 
 #include <algorithm>
@@ -36,7 +36,7 @@ void readWord(const frontend::CompileOptions& options, const char* key, uint32_t
         << std::string(key) + " " + entry->second << std::to_string(least) + " to " + std::to_string(kWords - 1);
 }
 
-// The words of the inputs come first (rtlib/nc/nct/signals.h).
+// First word of the outputs; the words of the inputs precede them (rtlib/nc/nct/signals.h).
 uint32_t firstOutputWord() {
   uint32_t first = UINT32_MAX;
   for (const nc::Signal& signal : nc::nctSignals())
@@ -56,7 +56,7 @@ Config readConfig(const frontend::CompileOptions& options, Diagnostics& diagnost
   readPeriod(options, "period_us", nc::wholeNumber, config.periodUs, diagnostics);
   config.timesliceUs = config.periodUs >= 5 ? config.periodUs / 5 : 1;
   readPeriod(options, "timeslice", nc::durationUs, config.timesliceUs, diagnostics);
-  // A time slice without a period of its own: five of them belong to a cycle of MAIN, as by default.
+  // If only the time slice is configured, a cycle of MAIN has five of them, as by default.
   if (options.config.contains("timeslice") && !options.config.contains("period_us"))
     config.periodUs = 5 * config.timesliceUs;
   return config;

@@ -1,5 +1,6 @@
 // Layout and painting of a network. Sizes are measured bottom-up, from inner to outer groups, then everything is
 // painted top-down.
+//
 // The tree of each pin begins at the left rail and occupies its own lines, below those of the pin above it. The lines
 // of a box are together at the top, so the wire of a pin whose tree is lower rises in a column of its own:
 //

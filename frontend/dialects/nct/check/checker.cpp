@@ -1,4 +1,4 @@
-// Checking rungs (see checker.h). Of an operand only the first mistake is reported, in the order of the inventory.
+// Checks rungs (see checker.h). Only the first error of an operand is reported, in the order of the inventory.
 #include "frontend/dialects/nct/check/checker.h"
 
 #include <ranges>
@@ -45,7 +45,7 @@ std::string_view describe(ConstantKind kind) {
   return "";
 }
 
-// How messages name an element; the operand is that of a contact or a coil.
+// Name of an element in messages; `operand` is that of a contact or a coil.
 std::string nameOf(const ladder::Element& element, const Row& row, std::string_view operand) {
   switch (element.kind) {
   case ElementKind::Contact: return "a contact";
@@ -61,7 +61,7 @@ std::string nameOf(const ladder::Element& element, const Row& row, std::string_v
 bool isBox(const Row& row) { return row.shape == Shape::Box; }
 std::string_view mnemonicOf(const Row& row) { return row.info.mnemonic; }
 
-// What is said of a box that has an operand of double format: the text begins with the box for integers.
+// Explanation for a box with a double operand; `here` begins with the box for integers.
 std::string forDoubles(std::string_view here) {
   const size_t end = std::min(here.find_first_of(" ,;"), here.size());
   const std::string_view doubles = doublesOf(here.substr(0, end));
@@ -72,7 +72,7 @@ std::string forDoubles(std::string_view here) {
 
 bool sameName(std::string_view a, std::string_view b) { return a == b; }
 
-// Of a box that is written like a line of an instruction list: its word and one operand.
+// Explains a box that is written like a line of an instruction list: its word and one operand.
 std::string listNote(const ladder::Element& element) {
   const std::string_view drawn = element.operands.count == 1 ? ladder::drawnFor(element.mnemonic) : std::string_view();
   return drawn.empty() ? std::string() : fmt::format("in a drawing: {}", drawn);
@@ -80,8 +80,7 @@ std::string listNote(const ladder::Element& element) {
 
 } // namespace
 
-// --- each output once
-// ---------------------------------------------------------------------------------------------------
+// --- each output once ------------------------------------------------------------------------------------------
 void OutputReservations::add(const Row& row, const Operand& operand) {
   const Reservation reservation = row.reservation;
   const Address& address = operand.address;
@@ -103,8 +102,7 @@ void OutputReservations::add(const Row& row, const Operand& operand) {
         << operand.source->text;
 }
 
-// --- rungs
-// --------------------------------------------------------------------------------------------------------------
+// --- rungs ------------------------------------------------------------------------------------------
 RungChecker::RungChecker(Symbols& symbols, OutputReservations& reservations, frontend::Analysis& analysis,
                          Diagnostics& diagnostics, std::string_view module)
     : symbols_(symbols), reservations_(reservations), analysis_(analysis), diagnostics_(diagnostics), module_(module),
@@ -120,7 +118,7 @@ TypedRung RungChecker::check(const ladder::LadderFile& file, const ladder::Rung&
   typed.operands.reserve(rung.operandPool.size());
   dueNets_.clear();
   for (const ladder::Element& element : rung.elements) checkElement(typed, element);
-  // What marks a place in the program has a rung of its own (l.2926, l.2968, l.3022).
+  // An element that marks a place in the program needs a rung of its own (l.2926, l.2968, l.3022).
   for (const TypedElement& element : typed.elements) {
     if (typed.elements.size() == 1 || element.row == nullptr || element.row->info.placement != Placement::AtRail)
       continue;
@@ -171,7 +169,8 @@ void RungChecker::reportUnknown(const ladder::Element& element, std::span<const 
   ladder::suggest(report, symbols_.sources(), element.mnemonicRange, likely);
 }
 
-// With a fix only where it is certain that the box means the same: it has as many operands, of the same format.
+// Explains an instruction of another language. A fix is offered only if the box certainly means the same: equal number
+// and format of operands.
 void RungChecker::explainForeign(DiagBuilder& report, const ladder::Element& element,
                                  const frontend::ForeignWord& foreign, Numbers numbers) {
   const SourceRange range = element.mnemonicRange;
@@ -214,7 +213,7 @@ void RungChecker::checkElement(TypedRung& typed, const ladder::Element& element)
   }
   added.row = rowOf(element, typed.operands.empty() ? nullptr : &typed.operands.back());
   if (added.row == nullptr) {
-    // Of a drawing with an error it may be a pin of a box that was not read.
+    // In a drawing with an error it may be a pin of a box that could not be read.
     const bool mayBePin = rung.bad && element.operands.count == 0;
     if (!mayBePin) reportUnknown(element, rung.operandsOf(element));
     typed.bad = true;
@@ -222,7 +221,7 @@ void RungChecker::checkElement(TypedRung& typed, const ladder::Element& element)
   }
   if (element.kind == ElementKind::Box)
     analysis_.use(frontend::InstructionUse{element.mnemonicRange, &added.row->info});
-  const bool drawn = rung.bad || checkDrawn(rung, element, *added.row); // of a bad one no net is known
+  const bool drawn = rung.bad || checkDrawn(rung, element, *added.row); // the nets of a bad drawing are unknown
   bool ok = readOperands(typed, added) && drawn;
   if (element.kind == ElementKind::Box && added.row->info.output == Output::Always)
     dueNets_.insert(element.output.index);
@@ -233,7 +232,7 @@ void RungChecker::checkElement(TypedRung& typed, const ladder::Element& element)
   if (!ok) typed.bad = true;
 }
 
-// Each of the two speaks of something else, so both may report.
+// The two checks concern different errors, so both may report.
 bool RungChecker::checkDrawn(const ladder::Rung& rung, const ladder::Element& element, const Row& row) {
   const bool placed = checkPlacement(rung, element, row);
   return ladder::checkPins(row.info, rung.pinsOf(element), element.range, sameName, diagnostics_) && placed;
@@ -261,7 +260,7 @@ bool RungChecker::checkPlacement(const ladder::Rung& rung, const ladder::Element
   return ok;
 }
 
-// Jumps and subroutines of a module share one set of numbers (l.2942, l.2996).
+// Reads the number of a label or subroutine; both share one set of numbers per module (l.2942, l.2996).
 bool RungChecker::readLabel(TypedElement& element, const Word& word) {
   element.label = parseLabel(word, symbols_, diagnostics_);
   if (!element.label) return false;
@@ -270,7 +269,7 @@ bool RungChecker::readLabel(TypedElement& element, const Word& word) {
   return true;
 }
 
-// Due is a plain coil right after a box that must have one, as MSG, TOND and CNT.
+// A coil is due if it is a plain coil directly after a box that requires one, such as MSG, TOND and CNT.
 RungChecker::CoilTraits RungChecker::coilTraits(const ladder::Rung& rung, const ladder::Element& element) const {
   if (element.kind != ElementKind::Coil) return {};
   const bool isDue =
@@ -278,7 +277,7 @@ RungChecker::CoilTraits RungChecker::coilTraits(const ladder::Rung& rung, const 
   return {.isSet = element.coil == ladder::CoilKind::Set, .isDue = isDue};
 }
 
-// Of too few or too many operands none has a place, but each may be wrong by itself.
+// Checks each word by itself if the number of operands is wrong and their positions are unknown.
 void RungChecker::readUncounted(const Row& row, std::span<const Word> words) {
   const auto isValue = [](const OperandInfo& operand) { return kindOf(operand).parse == OperandClass::Value; };
   if (!std::ranges::all_of(row.info.operands.all(), isValue)) return;
@@ -328,8 +327,7 @@ bool RungChecker::readOperands(TypedRung& typed, TypedElement& typedElement) {
   return true;
 }
 
-// --- operands
-// -----------------------------------------------------------------------------------------------------------
+// --- operands ------------------------------------------------------------------------------------------
 bool RungChecker::checkOperand(const Row& row, size_t index, const Operand& operand) {
   const OperandKind& kind = kindOf(row.info.operands[index]);
   const std::string_view text = operand.source->text;
@@ -416,7 +414,7 @@ bool RungChecker::checkConstant(const Row& row, size_t index, const Operand& ope
   return fits;
 }
 
-// With the constant, or the box, of the other format.
+// Reports a constant of the wrong format; suggests the constant, or the box, of the other format.
 void RungChecker::reportOtherConstant(const Row& row, size_t index, const Operand& operand) {
   const OperandKind& kind = kindOf(row.info.operands[index]);
   const Constant& constant = operand.constant;
@@ -433,7 +431,7 @@ void RungChecker::reportOtherConstant(const Row& row, size_t index, const Operan
     report.note(fmt::format("in decimal it is written #{}", constant.integer));
 }
 
-// Edges belong to contacts; `!` to single bits of the NC area in INT0 (l.546, l.590-596).
+// Checks the modifiers: edges belong to contacts; `!` belongs to single bits of the NC area in INT0 (l.546, l.590-596).
 bool RungChecker::checkModifiers(const Row& row, const ladder::Element& element, const Operand& operand) {
   const SourceRange range = operand.source->range;
   const bool immediate = operand.address.immediate;
@@ -467,7 +465,8 @@ bool RungChecker::checkModifiers(const Row& row, const ladder::Element& element,
   return true;
 }
 
-// What is added at run time, as written: of 7000:REG,IREG all from the ':' on, of 7000:REG,#1 ":REG".
+// The part of an operand that is added at run time: for 7000:REG,IREG everything from the ':' on, for 7000:REG,#1
+// ":REG".
 std::string_view computedPart(const Operand& operand) {
   const Address& address = operand.address;
   const std::string_view text = operand.source->text;
@@ -477,13 +476,13 @@ std::string_view computedPart(const Operand& operand) {
   return begin < end ? text.substr(begin, end - begin) : std::string_view();
 }
 
-// Of a bit whose number is in a register the word.
+// The memory of an address. A bit whose number is in a register counts as its whole word.
 frontend::NamedPlace placeOf(const OperandInfo& info, const Address& address) {
   if (address.isBit && address.bitRegister == kNoRegister) return {"M", address.word * 32 + address.bit, 1};
   return {"M", address.word * 32, kindOf(info).words * 32};
 }
 
-// The name that an operand begins with; where a constant index leads from a signal into another one that.
+// The symbol an operand refers to. If a constant index leads from a signal into another one, that signal's symbol.
 uint32_t RungChecker::baseOf(const Operand& operand) {
   if (operand.base == nullptr) return frontend::kNoDefinition;
   const nc::Signal* signal = operand.base->signal;

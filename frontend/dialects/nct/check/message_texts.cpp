@@ -1,4 +1,4 @@
-// Placeholders of message texts against the boxes that send them (see message_texts.h).
+// Checks the placeholders of message texts against the boxes that send them (see message_texts.h).
 #include "frontend/dialects/nct/check/message_texts.h"
 
 #include <algorithm>
@@ -53,7 +53,7 @@ void checkBox(const TextKinds& texts, const Row& row, const Operand& number, Dia
 
 namespace {
 
-// Calls f with the number of each box that shows a message.
+// Calls f with the row and the number operand of each message box.
 template <class F>
 void forEachBox(const TypedModule& module, F f) {
   for (const TypedRung& rung : module.rungs)
@@ -71,7 +71,7 @@ void checkMessages(const TypedModule& module, const TextKinds& texts, Diagnostic
 void checkMessageNumbers(std::initializer_list<const TypedModule*> modules, const TextKinds& texts,
                          Diagnostics& diagnostics) {
   std::set<uint32_t> shown;
-  bool all = true; // else some number is in memory
+  bool all = true; // false: some number is computed at run time
   for (const TypedModule* module : modules)
     forEachBox(*module, [&](const Row&, const Operand& operand) {
       all = all && operand.form == Form::Constant;

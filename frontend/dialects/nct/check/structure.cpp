@@ -1,4 +1,4 @@
-// The structure of a module (see structure.h).
+// Checks the structure of a module (see structure.h).
 #include "frontend/dialects/nct/check/structure.h"
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 namespace rung::frontend::nct {
 namespace {
 
-// A JMP or SBS.
+// A JMP or SBS with its target number.
 struct Reference {
   uint32_t number = 0;
   uint32_t rung = 0;
@@ -26,8 +26,7 @@ constexpr std::string_view kStructural[] = {"END", "JMP", "JME", "SBS", "SBN", "
 
 bool looksStructural(std::string_view mnemonic) { return !text::mostSimilar(mnemonic, kStructural).empty(); }
 
-// Something in the rung could not be read that might have been an END, a jump, a label or a subroutine's beginning or
-// end.
+// Whether an unreadable element of the rung may be an END, a jump, a label, or the begin or end of a subroutine.
 bool hidesStructure(const TypedRung& rung, const SourceManager& sources) {
   const auto hides = [&](const TypedElement& element) {
     if (element.element->kind == ladder::ElementKind::Error)
@@ -55,7 +54,7 @@ public:
         if (element.row != nullptr) visit(i, element);
     }
     closeBody(static_cast<uint32_t>(module_.rungs.size()));
-    // What a broken rung would have defined is not missing.
+    // A broken rung may define what seems to be missing.
     if (!incomplete_) {
       for (const Reference& jump : jumps_) checkJump(jump);
       for (const Reference& call : calls_) checkCall(call);
@@ -115,7 +114,7 @@ private:
     diagnostics_.report(diag::LabelConflict, range).note(other, "the other use") << number;
   }
 
-  // What an END in the wrong place ends is not certain: what follows it is not looked at.
+  // Records an END. `bad`: it is in the wrong place, so the rungs after it are not checked against it.
   void end(SourceRange range, bool bad) {
     if (ended_) {
       diagnostics_.report(diag::DuplicateEnd, range).note(endRange_, "the first one");
@@ -172,7 +171,7 @@ private:
 
   uint32_t bodyOf(uint32_t rung) const {
     const auto after = std::ranges::upper_bound(module_.bodies, rung, {}, [](const Body& b) { return b.first; });
-    // The main part begins with rung 0 also where a subroutine does.
+    // The main part begins with rung 0 even if a subroutine does, too.
     return after == module_.bodies.begin() ? 0 : static_cast<uint32_t>(after - module_.bodies.begin() - 1);
   }
 
@@ -182,7 +181,7 @@ private:
     if (!target) {
       diagnostics_.report(diag::UndefinedLabel, jump.range) << jump.number << "in this module";
     } else if (misplaced_) {
-      // Where bodies begin and end is not known.
+      // The bounds of the bodies are unknown.
     } else if (bodyOf(*target) != bodyOf(jump.rung)) {
       diagnostics_.report(diag::JumpAcrossSubroutine, jump.range).note(labelRange_[jump.number], "its target")
           << jump.number;
@@ -216,10 +215,11 @@ private:
           << "subroutine " + nameOf(cycle.call.callee) << frontend::CallGraph::throughText(cycle, nameOf);
   }
 
-  // Of a body that is called: the main part, which has none, is not.
+  // Number of a subroutine's body. The main part, which has no number, is never called.
   static uint32_t numberOf(const Body& body) { return body.number.value_or(0); }
 
-  // A body that is reached by several calls, or from such a body, has its boxes' states once.
+  // Warns of boxes with state in a body that is reached by several calls, directly or through such a body: they have
+  // only one state.
   void warnShared() {
     std::vector<const Reference*> second(module_.bodies.size(), nullptr);
     std::vector<uint32_t> callers(module_.bodies.size(), 0);
@@ -227,7 +227,7 @@ private:
       const std::optional<uint32_t>& callee = module_.subroutines[call.number];
       if (callee && ++callers[*callee] == 2) second[*callee] = &call;
     }
-    // Calls of a shared body share what they call; each round reaches one level further.
+    // Whatever a shared body calls is shared as well; each round goes one call level deeper.
     for (bool changed = true; changed;) {
       changed = false;
       for (const Reference& call : calls_) {
@@ -241,7 +241,7 @@ private:
       if (second[body] != nullptr) warnShared(module_.bodies[body], *second[body]);
   }
 
-  // One warning for a body, at the first thing that has a state.
+  // Reports one warning per body, at its first element with state.
   void warnShared(const Body& body, const Reference& call) {
     for (uint32_t i = body.first; i < body.end; ++i) {
       const TypedRung& rung = module_.rungs[i];
@@ -266,13 +266,13 @@ private:
   TypedModule& module_;
   const SourceManager& sources_;
   Diagnostics& diagnostics_;
-  size_t errors_ = 0; // before this check
+  size_t errors_ = 0; // error count before this check
   std::vector<Reference> jumps_;
   std::vector<Reference> calls_;
   std::array<Use, kLabels> uses_{};
   std::array<SourceRange, kLabels> labelRange_{};
   std::array<SourceRange, kLabels> subroutineRange_{};
-  bool incomplete_ = false; // what is missing may be in a rung that could not be read
+  bool incomplete_ = false; // an unreadable rung may contain what is missing
   bool misplaced_ = false;  // a subroutine begins before END
   bool ended_ = false;
   bool reportedAfterEnd_ = false;
@@ -315,7 +315,7 @@ std::vector<bool> evaluatedOncePerRun(const TypedModule& module) {
     for (const TypedElement& element : module.rungs[from].elements) {
       if (element.row->flow != Flow::Jump) continue;
       const uint32_t to = module.labels[element.label.value_or(0)].value_or(from);
-      // The rung with the jump is evaluated to its end; that with the label is where the run continues.
+      // The rung with the jump is evaluated to its end; the run continues at the rung with the label.
       const auto [first, end] = to > from ? std::pair(from + 1, to) : std::pair(to, from + 1);
       std::fill(once.begin() + first, once.begin() + end, false);
     }

@@ -1,4 +1,4 @@
-// The list of dialects. A new dialect is a folder beside this file and a line here.
+// The list of dialects. A new dialect is a folder beside this file and one line here.
 #include <array>
 
 #include "frontend/dialects/dialect.h"

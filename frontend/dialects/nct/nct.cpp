@@ -1,4 +1,4 @@
-// The dialect's compile function: read the files, check the program, build the module (see nct.h).
+// Entry of the dialect: reads the files, checks the program, builds the module (see nct.h).
 #include "frontend/dialects/nct/nct.h"
 
 #include <array>
@@ -90,7 +90,7 @@ private:
       checkStructure(*module, sources_, diagnostics_);
       checkMessages(*module, textKinds_, diagnostics_);
     }
-    if (!diagnostics_.hasErrors()) // a mistake may hide a box
+    if (!diagnostics_.hasErrors()) // an error may hide a box
       checkMessageNumbers({&program_.main, &program_.int0}, textKinds_, diagnostics_);
     if (!program_.main.exists && !program_.main.range.valid() && !nameless_) {
       const SourceRange range = files_.empty() ? SourceRange{} : files_[0].dialectRange;
@@ -103,7 +103,7 @@ private:
       textKinds_[*number] = {.kind = checkText(declaration.value, diagnostics_), .range = declaration.value.range};
   }
 
-  // `message 20 "text"` and `button 23 "title"`. Gives the number, when it is a good one.
+  // Adds `message 20 "text"` or `button 23 "title"`. Returns the number if it is valid.
   std::optional<uint32_t> addText(const ladder::Declaration& declaration, uint32_t most, uint32_t offset) {
     const std::string_view digits = declaration.name.text;
     uint32_t number = 0;
@@ -124,8 +124,8 @@ private:
     return std::nullopt;
   }
 
-  // The module that a statement opens; the same name in another file continues it. What is in an unknown module, or
-  // in the second of a name in one file, is looked at rung by rung, but for nothing else.
+  // The module that a statement opens; the same name in another file continues it. The rungs of an unknown module, and
+  // of a second module with the same name in one file, are checked one by one, but not as a module.
   TypedModule& open(const ladder::LadderFile& file, const ladder::Module& statement) {
     const std::string_view name = statement.name[0].text;
     TypedModule* module = name == "MAIN" ? &program_.main : name == "INT0" ? &program_.int0 : nullptr;
@@ -184,12 +184,12 @@ private:
   OutputReservations reservations_;
   std::vector<ladder::LadderFile> files_;
   Program program_;
-  TypedModule reported_; // rungs of modules that are none
+  TypedModule reported_; // rungs of rejected modules
   Texts texts_;
   TextKinds textKinds_;
-  std::unordered_map<uint32_t, SourceRange> numbers_; // of the texts: their declarations
-  uint32_t drawn_ = 0;                                // rungs so far, over all files
-  bool nameless_ = false; // rungs are in no known module, or were not read: MAIN may be among them
+  std::unordered_map<uint32_t, SourceRange> numbers_; // declaration per number of a text
+  uint32_t drawn_ = 0;                                // number of rungs so far, in all files
+  bool nameless_ = false; // some rungs belong to no known module or were not read: MAIN may be among them
 };
 
 std::unique_ptr<frontend::CheckedProgram> check(SourceManager& sources, std::span<const FileId> files,

@@ -1,4 +1,4 @@
-// Sections of the reference page after the instructions.
+// Sections of the reference page that follow the instructions.
 #include "frontend/dialects/nct/reference.h"
 
 #include "frontend/dialects/nct/config.h"

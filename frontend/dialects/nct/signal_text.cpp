@@ -1,4 +1,4 @@
-// Predefined names in words (see signal_text.h, reference.h).
+// Explains predefined names (see signal_text.h, reference.h).
 #include "frontend/dialects/nct/signal_text.h"
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 namespace rung::frontend::nct {
 namespace {
 
-// What the elements of a signal belong to; groups are those of signals.csv.
+// What the elements of a signal belong to; the groups are those of signals.csv.
 std::string_view unitOf(const nc::Signal& signal) {
   struct Unit {
     std::string_view group, unit;
@@ -42,7 +42,7 @@ std::string explainSignal(std::string_view name) {
   return "";
 }
 
-// What follows a signal's name: a bit that does not exist, an index that leads into another signal.
+// Explains the text after a signal's name: a bit that does not exist, an index that leads into another signal.
 std::string explainPart(std::string_view name, std::string_view part) {
   const nc::Signal* signal = nc::findSignal(nc::nctSignals(), name);
   if (signal == nullptr || part.empty()) return "";
@@ -82,7 +82,7 @@ std::string explainQuantity(std::string_view name) {
                      symbol.line);
 }
 
-// "MW 70", "mr104".
+// Explains a service function such as "MW 70" or "mr104".
 std::string explainFunction(std::string_view word) {
   for (const nc::nct::FunctionAccess access : {nc::nct::FunctionAccess::Read, nc::nct::FunctionAccess::Write}) {
     std::string_view digits = word;

@@ -1,4 +1,4 @@
-// Building the module (see build_module.h).
+// Builds the module (see build_module.h).
 #include "frontend/dialects/nct/lower/build_module.h"
 
 #include <algorithm>
@@ -67,7 +67,7 @@ private:
     return false;
   }
 
-  // The outputs of the NC: the words from the first output signal to the last (they follow the inputs).
+  // The NC's outputs are safe spans: the words from the first to the last output signal.
   void addSafes() {
     const uint32_t first = config_.firstOutput * 4;
     uint32_t end = 0;
@@ -123,7 +123,7 @@ private:
     return copy;
   }
 
-  // TS <- M, but only the bits that were written.
+  // Copies to the time-slice memory, restricted to the bits that were written.
   std::vector<ir::Copy> toTimeSlice(const WrittenRange& written) {
     const uint32_t first = written.first * 4;
     const uint32_t end = std::min(written.end * 4, synchronisedEnd_);
@@ -135,9 +135,9 @@ private:
     return {transfer};
   }
 
-  // After the last byte of the NC area that is in two memories: the words of signals, which the NC reads and writes,
-  // what a rung names beyond them, and what it may reach by `!`. A word that is only reached by an index in the
-  // synchronised memory, and that the NC does not know, is in one memory: the difference is not visible.
+  // End of the part of the NC area that exists in both memories: words of signals, which the NC reads and writes, words
+  // beyond them that a rung names, and words that it may reach by `!`. A word that the NC does not know, and that is
+  // only reached by an index in the synchronised memory, exists once: the difference is not visible.
   uint32_t findSynchronisedEnd() const {
     const uint32_t nvram = config_.plcNvram * 4;
     uint32_t end = nc::areaBytes(nc::nctSignals(), "M");
@@ -153,7 +153,7 @@ private:
     return std::min(end, nvram);
   }
 
-  // The routine of a task, and what it writes without `!`.
+  // The lowered routine of a task, and the words it writes without `!`.
   struct Lowered {
     ir::RoutineId entry;
     WrittenRange written;
@@ -170,10 +170,10 @@ private:
                   .end = {},
                   .borders = {}};
     synchronisedEnd_ = findSynchronisedEnd();
-    // What INT0 wrote without `!` since the last cycle must outlive the synchronisation; no code reads the time-slice
-    // memory between here and the end of the run.
+    // Values that INT0 wrote without `!` since the last cycle must survive the synchronisation; no code reads the
+    // time-slice memory between this point and the end of the run.
     task.begin = toTimeSlice(int0.written);
-    // All but FLAGS; word 0001 of the time-slice memory is always 0, so what was written there is gone.
+    // Everything but FLAGS; word 0001 of the time-slice memory is always 0, so writes to it are lost.
     task.begin.push_back(copy(spaces_.ts, 4, spaces_.m, 4, synchronisedEnd_ - 4));
     task.end = toTimeSlice(main.written);
     module_.mainTask = {0};
@@ -199,7 +199,7 @@ private:
     const auto run = [&](ir::TaskId task) { return ir::Step{.op = RUNG_STEP_RUN, .task = task, .arg = 1}; };
     const uint32_t slices = config_.slices();
     const uint32_t slice = slices == 1 ? config_.periodUs : config_.timesliceUs;
-    // A time slice: its time passes, the NC writes its inputs and clocks, INT0 runs.
+    // Adds a time slice: its time passes, the NC writes its inputs and clocks, INT0 runs.
     const auto addSlice = [&](std::vector<ir::Step>& steps, uint32_t us) {
       steps.push_back(advance(us));
       steps.push_back({.op = RUNG_STEP_HOOK, .task = {}, .arg = 0});
@@ -221,7 +221,7 @@ private:
   const frontend::CompileOptions& options_;
   MemorySpaces spaces_;
   ir::SpaceId flags_;
-  uint32_t synchronisedEnd_ = 0; // set when the rungs are there
+  uint32_t synchronisedEnd_ = 0; // valid once the rungs are lowered
   WrittenRange written_;
 };
 

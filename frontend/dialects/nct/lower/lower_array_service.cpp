@@ -1,9 +1,9 @@
 // MR and MW: reading and writing arrays of the NC (man. §6.18, l.3390-3542), and what boxes share with the NC.
 //
-// A request lasts several cycles (l.3414). The box copies its block into a buffer of its own and asks; from then on the
-// block is the program's again. The answer is taken in the first evaluation with power that finds it there. The box
-// keeps its output while EN stays TRUE and asks again only after EN was FALSE; when EN went FALSE too early the answer
-// is dropped, and the buffer is free when it has come.
+// A request takes several cycles (l.3414). The box copies its block into its own buffer and sends the request; from
+// then on the program may use the block again. The answer is taken in the first evaluation with power that finds it.
+// The output stays on while EN is TRUE, and the box sends another request only after EN was FALSE. If EN becomes FALSE
+// before the answer, the answer is discarded and the buffer becomes free when it arrives.
 #include <algorithm>
 
 #include "frontend/dialects/nct/lower/lower.h"
@@ -45,7 +45,7 @@ namespace {
 
 using enum frontend::RequestState;
 
-// What an evaluation comes to.
+// Result of one evaluation: the output and the new state.
 struct Step {
   ValueId output, state;
 };
@@ -83,12 +83,12 @@ private:
   Lowering& box_;
   RungBuilder& b_;
   SlotId state_, ticket_;
-  SlotId first_{}; // of a computed block: its first word at the time of the request
+  SlotId first_{}; // for a computed block: its first word at the time of the request
   SharedWords buffer_;
   const Operand& function_;
 };
 
-// A box that rests costs one comparison.
+// Lowers the box. While it is idle it costs one comparison.
 ValueId ArrayServiceLowering::run() {
   if (!box_.operands[0].address.isFixed()) first_ = box_.slots.make("first", Type::I32);
   const ValueId enable = box_.power();
@@ -101,7 +101,7 @@ ValueId ArrayServiceLowering::run() {
   return b_.choose(b_.or_(enable, b_.ne(state, is(kIdle))), work, [&] { return b_.bit(false); });
 }
 
-// The state after an unwanted answer has been dropped.
+// The state after an unwanted answer has been discarded.
 ValueId ArrayServiceLowering::freed(ValueId enable, ValueId state) {
   const ValueId given = b_.and_(b_.eq(state, is(kPending)), b_.not_(enable));
   return b_.choose(
@@ -125,7 +125,7 @@ Step ArrayServiceLowering::evaluate(ValueId enable, ValueId state) {
 
 // --- a request ------------------------------------------------------------------------------------------------------
 
-// Words of the program's block that may matter. Of a function that is known the list says how many.
+// Number of words of the program's block that may matter; for a constant function code the table gives it.
 uint32_t ArrayServiceLowering::blockWords() const {
   constexpr uint32_t kLeast = 16;
   if (function_.form != Form::Constant) return nc::nct::kBlockWords;
@@ -133,7 +133,7 @@ uint32_t ArrayServiceLowering::blockWords() const {
   return function == nullptr ? kLeast : std::max<uint32_t>(kLeast, function->words.back().last + 1u);
 }
 
-// The block in memory; words beyond the end of memory read 0 and take nothing.
+// The block in memory. Words beyond the end of memory read 0, and writes to them are ignored.
 WordRange ArrayServiceLowering::block(const Place& place) const {
   WordRange range;
   range.mostWords = blockWords();
@@ -154,7 +154,7 @@ ValueId ArrayServiceLowering::isKnown(ValueId function) {
   return known;
 }
 
-// The last word comes (amount + 1) words after the first (l.3457, l.3532).
+// Whether the last word, (amount + 1) words after the first, is still in memory (l.3457, l.3532).
 ValueId ArrayServiceLowering::fits(const WordRange& range, const Place& place) {
   const ValueId amount = box_.memory.loadIn(range, b_.i32(nc::nct::kAmountWord));
   const ValueId after = place.fixed ? b_.i32(kWords - 1 - place.word) : b_.sub(b_.i32(kWords - 1), place.wordNo);
@@ -168,13 +168,13 @@ Step ArrayServiceLowering::begin() {
   if (!valid.valid()) return start(place, function);
   return b_.choose(
       valid, [&] { return start(place, function); },
-      [&] { // there is no block that could take an execution code
+      [&] { // no valid block that could take an execution code
         box_.memory.setErrorFlag(true);
         return rest(kIdle);
       });
 }
 
-// What cannot be asked is answered at once.
+// Starts a request. One that cannot be sent is answered at once with an error code.
 Step ArrayServiceLowering::start(const Place& place, ValueId function) {
   const WordRange range = block(place);
   const ValueId refusal = b_.select(
@@ -221,7 +221,7 @@ Step ArrayServiceLowering::await() {
       [&] { return rest(kPending); });
 }
 
-// A host without an NC answers with an error: no function is known there.
+// Stores the answer in the block. A host without an NC answers with an error: the function counts as unknown.
 void ArrayServiceLowering::takeAnswer(const WordRange& range) {
   const ValueId word = b_.loop(range.mostWords).front();
   const ValueId bits = b_.loadAt(Type::I32, mask(), b_.shrU(word, b_.i32(5)));

@@ -1,4 +1,4 @@
-// MOVCMND: commands to an axis that the PLC moves (man. §6.15, l.3052-3155).
+// MOVCMND: commands for an axis that the PLC moves (man. §6.15, l.3052-3155).
 #include "frontend/dialects/nct/lower/lower.h"
 #include "ir/support/check.h"
 #include "rtlib/nc/nct/axis_codes.h"
@@ -12,7 +12,7 @@ using ir::ValueId;
 
 namespace {
 
-// The signal of the axis with this index, which is in range.
+// The signal of the axis with this index, which must be in range.
 ValueId axisSignal(Lowering& box, std::string_view symbol, ValueId axis) {
   const nc::Signal* signal = nc::findSignal(nc::nctSignals(), symbol);
   RUNG_CHECK(signal != nullptr && signal->count == nc::nct::kAxes, "a signal of the axes");
@@ -21,7 +21,7 @@ ValueId axisSignal(Lowering& box, std::string_view symbol, ValueId axis) {
   return box.b.loadBitAt(axes, axis, box.b.i32(signal->bit));
 }
 
-// Axis and code are known, the axis is the PLC's (l.3120), and a movement with feed has one (l.3124).
+// Whether axis and code exist, the PLC owns the axis (l.3120), and a movement with feed has a feed (l.3124).
 ValueId isProper(Lowering& box, ValueId axis, ValueId code, ValueId speed) {
   RungBuilder& b = box.b;
   ValueId needsSpeed = b.bit(false);
@@ -36,7 +36,7 @@ ValueId isProper(Lowering& box, ValueId axis, ValueId code, ValueId speed) {
 
 } // namespace
 
-// The command goes out when the axis' buffer of one block is empty (l.3062). The NC takes it without an answer; a host
+// Sends the command if the axis' buffer of one block is empty (l.3062). The NC accepts it without an answer; a host
 // that refuses it cannot execute the instruction.
 ValueId lowerAxisCommand(Lowering& box) {
   RungBuilder& b = box.b;

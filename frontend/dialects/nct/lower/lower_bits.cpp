@@ -35,13 +35,13 @@ ValueId risingEdge(Lowering& box, std::string_view role, size_t pin) {
 
 namespace {
 
-// Of a contact that has one.
+// Edge of a contact with `@` or `%`.
 frontend::Edge edgeOf(const Lowering& box) { return box.edge == '@' ? kRising : kFalling; }
 
 constexpr int64_t kNoAddress = 0xFFFFFFFF; // no bit has this address
 
-// The edge of a contact whose address is computed. Its memory belongs to the address it was taken from: when that
-// moved, the memory starts anew without an edge. Before the first evaluation there is no address and the value is 0.
+// Edge of a contact with a computed address. The stored value belongs to the address it was read from: when the address
+// changes there is no edge. Before the first evaluation the slot has no address and the value is 0.
 ValueId movingPulse(Lowering& box, const Place& place, ValueId value) {
   RungBuilder& b = box.b;
   const SlotId addressSlot = box.slots.make("address", Type::I32, kNoAddress);
@@ -59,7 +59,7 @@ ValueId movingPulse(Lowering& box, const Place& place, ValueId value) {
 
 } // namespace
 
-// A contact is evaluated for its edge also without power on its left; it raises FL_ER only with power.
+// The edge of a contact is evaluated even without power on its left; FL_ER is set only with power.
 ValueId lowerContact(Lowering& box) {
   RungBuilder& b = box.b;
   Memory& memory = box.memory;

@@ -21,14 +21,14 @@ ValueId isFinite(RungBuilder& b, ValueId x) {
 ValueId isZero(RungBuilder& b, ValueId x) { return b.fEq(x, b.real(0)); }
 ValueId isNumber(RungBuilder& b, ValueId x) { return b.fEq(x, x); }
 
-// Does `store` when `ok` holds, else only sets FL_ER; gives `ok`. `store` clears FL_ER.
+// Emits `store`, which clears FL_ER, if `ok` holds; otherwise sets only FL_ER. Returns `ok`.
 template <class Store>
 ValueId when(Lowering& box, ValueId ok, Store store) {
   box.b.when(ok, store, [&] { box.memory.setErrorFlag(true); });
   return ok;
 }
 
-// Underflow: the result is 0 and the exact one is not (l.694-704). Sums of doubles are exact where they are that small.
+// Underflow: the result is 0 although the exact result is not (l.694-704). Sums of doubles this small are exact.
 ValueId underflows(RungBuilder& b, int operation, ValueId x, ValueId y, ValueId result) {
   switch (operation) {
   case kMultiply: return b.and_(isZero(b, result), b.not_(b.or_(isZero(b, x), isZero(b, y))));
@@ -39,8 +39,8 @@ ValueId underflows(RungBuilder& b, int operation, ValueId x, ValueId y, ValueId 
 
 } // namespace
 
-// Overflow: finite operands, infinite result. A NaN operand, or a result that is none (∞ - ∞), is not executed; nor is
-// a division by 0. What nearly all results are is asked first: finite, and of products and quotients not 0. They have
+// Overflow: finite operands, infinite result. An operation with a NaN operand or result (∞ - ∞), or a division by 0, is
+// not executed. The common case is tested first: a finite result that, for products and quotients, is not 0. It sets
 // none of these flags.
 ValueId lowerFloatArithmetic(Lowering& box) {
   RungBuilder& b = box.b;
@@ -77,9 +77,9 @@ ValueId lowerFloatArithmetic(Lowering& box) {
   });
 }
 
-// The operations give NaN where there is no value; besides that the manual forbids the logarithm of 0, and powers of
-// a negative base or of 0 to a negative exponent (§6.10.5-§6.10.14). Only powers and exponentials can leave
-// the range of doubles.
+// The operations return NaN where they are undefined; the manual also forbids the logarithm of 0, and powers of a
+// negative base or of 0 to a negative exponent (§6.10.5-§6.10.14). Only powers and exponentials can exceed the range of
+// doubles.
 ValueId lowerFloatFunction(Lowering& box) {
   constexpr OpCode kCodes[] = {OpCode::FPow,  OpCode::FSqrt, OpCode::FSin,  OpCode::FCos, OpCode::FTan,
                                OpCode::FAsin, OpCode::FAcos, OpCode::FAtan, OpCode::FExp, OpCode::FLog};
@@ -120,7 +120,7 @@ ValueId lowerFloatFunction(Lowering& box) {
 
 namespace {
 
-// Word to word; `convert` gives the result and whether it exists.
+// Converts a word to a word; `convert` returns the result and whether it exists.
 template <class Convert>
 ValueId convertWord(Lowering& box, Convert convert) {
   return execute(box, [&] {
@@ -144,7 +144,7 @@ struct Converted {
 
 } // namespace
 
-// A digit above 9 does not survive the way back.
+// BIN: a digit above 9 is detected because converting back gives another number.
 ValueId lowerBin(Lowering& box) {
   RungBuilder& b = box.b;
   return convertWord(box, [&](ValueId source) {
@@ -173,7 +173,7 @@ ValueId lowerFlt(Lowering& box) {
   });
 }
 
-// The range holds for the operand itself, before its fraction is cut off (l.2505).
+// The range applies to the operand itself, before its fraction is cut off (l.2505).
 ValueId lowerFix(Lowering& box) {
   RungBuilder& b = box.b;
   return execute(box, [&] {
@@ -207,7 +207,7 @@ ValueId lowerAngle(Lowering& box) {
   });
 }
 
-// With a NaN none of the three flags is 1, and FL_ER is.
+// A NaN clears all three flags and sets FL_ER.
 ValueId lowerFloatCompare(Lowering& box) {
   RungBuilder& b = box.b;
   execute(box, [&] {
@@ -229,7 +229,7 @@ ValueId lowerFloatCompare(Lowering& box) {
   return {};
 }
 
-// A NaN is an error like an address outside the memory: no power, FL_ER.
+// A NaN is an error like an address outside the memory: no power, FL_ER is set.
 ValueId lowerFloatContact(Lowering& box) {
   RungBuilder& b = box.b;
   ValueId valid;

@@ -1,7 +1,7 @@
 // MSG MSGF ALR ALRF REM REMF (man. §6.13, l.2775-2852).
 //
-// The rising edge of the input sends the message, the falling edge deletes what was sent then, whatever the operands
-// say by now. Which part of it is on the screen (or in the log) the NC says in a word of the box, see
+// A rising edge of the input sends the message, a falling edge removes the message that was sent, even if the operands
+// have changed since. The NC reports in a word of the box which of its messages is on the screen (or in the log), see
 // rtlib/nc/nct/messages.h.
 #include "frontend/dialects/nct/lower/lower.h"
 #include "rtlib/nc/nct/messages.h"
@@ -14,7 +14,7 @@ using ir::ValueId;
 
 namespace {
 
-// 0 to `most` counted from `least`, where that is not known at compile time.
+// Adds to `valid` that an operand known only at run time is between `least` and `most`.
 ValueId inRange(Lowering& box, const Operand& operand, ValueId value, uint32_t least, uint32_t most, ValueId valid) {
   if (operand.form == Form::Constant) return valid;
   RungBuilder& b = box.b;
@@ -52,7 +52,7 @@ private:
     return b_.sextOrTrunc(Type::I64, box_.memory.integer(box_.operands[3], valid));
   }
 
-  // An operand that is wrong at run time sets FL_ER, and nothing is sent.
+  // Sends the message. An operand out of range at run time sets FL_ER, and nothing is sent.
   void send() {
     ValueId valid;
     const ValueId number = box_.memory.integer(box_.operands[0], valid);
@@ -89,7 +89,7 @@ private:
   Lowering& box_;
   RungBuilder& b_;
   ir::SlotId before_;
-  SharedWords words_; // of this box
+  SharedWords words_; // words shared with the NC, for this box
 };
 
 } // namespace

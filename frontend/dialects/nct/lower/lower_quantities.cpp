@@ -1,4 +1,4 @@
-// Values of the NC by name: macro variables (man. §6.16, l.3157-3267) and the quantities of the oscilloscope (§6.17,
+// Named values of the NC: macro variables (man. §6.16, l.3157-3267) and the quantities of the oscilloscope (§6.17,
 // l.3269-3388).
 #include <fmt/format.h>
 
@@ -21,14 +21,14 @@ using nc::nct::ServiceKind;
 namespace {
 
 constexpr int64_t kFirstMacro = 100, kLastMacro = 999; // l.3215
-constexpr int64_t kChannels = 8;                       // by index
+constexpr int64_t kChannels = 8;                       // index 0 to 7
 
 ValueId isBetween(RungBuilder& b, ValueId value, int64_t least, int64_t most) {
   return b.ltU(b.sub(value, b.i32(least)), b.i32(most - least + 1));
 }
 
-// An enabled box asks in every evaluation while the NC answers within it. An NC that takes longer is asked once while
-// EN stays TRUE; the output waits for its answer.
+// A request to the NC. If the NC answers immediately, an enabled box sends a request in every evaluation. If the NC
+// takes longer, the box sends one request while EN stays TRUE and sets its output when the answer arrives.
 class Inquiry {
 public:
   explicit Inquiry(Lowering& box)
@@ -36,10 +36,10 @@ public:
         settled_(box.slots.make("settled", Type::Bit)), shown_(box.slots.make("shown", Type::Bit)),
         ticket_(box.slots.make("ticket", Type::I32)) {}
 
-  // `ask` gives a ticket, `take` gets it when its answer is there. Gives the output.
+  // `ask` returns a ticket; `take` is called with it when the answer is available. Returns the output.
   template <class Ask, class Take>
   ValueId run(Ask ask, Take take);
-  // EN is FALSE, or an operand is not valid. A pending answer is dropped.
+  // Emitted for EN = FALSE or an invalid operand. Discards a pending answer.
   void forget() {
     for (SlotId slot : {waiting_, settled_, shown_}) b_.slotStore(slot, b_.bit(false));
   }
@@ -55,8 +55,8 @@ private:
 
   RungBuilder& b_;
   Memory& memory_;
-  SlotId waiting_; // for the answer to the request `ticket_`
-  SlotId settled_; // it came late: no further request
+  SlotId waiting_; // for the answer to `ticket_`
+  SlotId settled_; // the answer was delayed: no further request
   SlotId shown_;   // the output
   SlotId ticket_;
 };
@@ -85,14 +85,14 @@ ValueId Inquiry::run(Ask ask, Take take) {
   memory_.setErrorFlag(true);
   end(false);
   b_.else_();
-  b_.slotStore(waiting_, b_.eq(state, b_.i32(RUNG_SERVICE_PENDING))); // else the queue is full
+  b_.slotStore(waiting_, b_.eq(state, b_.i32(RUNG_SERVICE_PENDING))); // otherwise the queue is full
   b_.endIf();
   b_.endIf();
   b_.endIf();
   return b_.slotLoad(shown_);
 }
 
-// The frame of the three instructions: `valid` makes the condition on the operands, `body` the output.
+// Common frame of the three instructions: `valid` returns the condition on the operands, `body` the output.
 template <class Valid, class Body>
 ValueId inquire(Lowering& box, Inquiry& inquiry, Valid valid, Body body) {
   RungBuilder& b = box.b;
@@ -158,11 +158,11 @@ const nc::nct::ScopeSymbol& symbolOf(const Operand& operand) {
 
 ValueId fits(Lowering& box, const ScopeParameter& parameter, const Operand& operand, ValueId value) {
   const int64_t most = parameter.maximum(box.memory.config().plcNvram);
-  if (operand.form == Form::Constant || most == INT32_MAX) return {}; // checked, or anything goes
+  if (operand.form == Form::Constant || most == INT32_MAX) return {}; // checked by the compiler, or unlimited
   return isBetween(box.b, value, parameter.min, most);
 }
 
-// A place in the PLC's own memory: fixed where both parameters are constants.
+// Loads a value from the PLC's own memory; the place is fixed if both parameters are constants.
 ValueId loadOwn(Lowering& box, ScopeSource source, ValueId word, ValueId bit) {
   RungBuilder& b = box.b;
   const bool direct = source == ScopeSource::DirectPlcBit || source == ScopeSource::DirectPlcInt ||
@@ -193,8 +193,8 @@ ValueId loadOwn(Lowering& box, ScopeSource source, ValueId word, ValueId bit) {
 
 } // namespace
 
-// SCP result symbol parameter1 parameter2. The PLC's own memory is read directly; all else the NC knows. A query
-// touches FL_ER only when it cannot be made.
+// SCP result symbol parameter1 parameter2. The PLC's own memory is read directly, everything else is requested from the
+// NC. A request changes FL_ER only if it cannot be made.
 ValueId lowerScope(Lowering& box) {
   RungBuilder& b = box.b;
   Memory& memory = box.memory;
@@ -226,7 +226,7 @@ ValueId lowerScope(Lowering& box) {
   return inquire(box, inquiry, valid, [&] { return inquiry.run(ask, take); });
 }
 
-// The manual has the limits of a constant variable only (l.3201); a channel that is never there is found at run time.
+// The manual gives limits only for a constant variable (l.3201); a channel that does not exist is an error at run time.
 void checkMacro(std::span<const Operand> operands, const Config&, Diagnostics& diagnostics) {
   const Operand& channel = operands.back();
   if (channel.form != Form::Constant || (channel.constant.integer >= 0 && channel.constant.integer < kChannels)) return;

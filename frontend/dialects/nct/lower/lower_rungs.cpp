@@ -1,4 +1,4 @@
-// Lowering rungs (see lower_rungs.h).
+// Lowers rungs (see lower_rungs.h).
 #include "frontend/dialects/nct/lower/lower_rungs.h"
 
 #include <algorithm>
@@ -17,28 +17,28 @@ namespace {
 
 using ir::ValueId;
 
-// A JMP, SBS or RET that was met in the rung. It takes effect when the whole rung has been evaluated, in the order in
-// which they were executed (chapter 4, 9).
+// A JMP, SBS or RET of the rung. They take effect after the whole rung has been evaluated, in the order of their
+// execution (chapter 4, 9).
 struct Leave {
   Flow flow;
   uint32_t number;
   ValueId cond;
 };
 
-// A jump whose target is not known before its body is complete.
+// A jump whose target rung is known only when its body is complete.
 struct OpenJump {
   uint32_t rung;
   uint32_t number;
 };
 
-// Of a label or subroutine.
+// The rung of a label or the body of a subroutine, which must exist.
 uint32_t existing(const std::optional<uint32_t>& target) {
   RUNG_CHECK(target.has_value(), "a module with a jump or call to nowhere is not lowered");
   return *target;
 }
 
-// An element's name within its rung, the same in the next version of the program: instruction and operands. Where the
-// first operand distinguishes it from all others (one instance of each), that one alone.
+// Name of an element within its rung, stable across versions of the program: instruction and operands. The first
+// operand suffices if only one instance with it may exist.
 std::string identityOf(const Row& row, std::span<const Operand> operands) {
   std::string text(row.info.mnemonic);
   for (const Operand& operand : operands) {
@@ -65,7 +65,7 @@ public:
       time_ = times_[i];
       lowerRung(source_.rungs[i]);
     }
-    // A module may be empty; a routine is not.
+    // A module may be empty, but a routine may not.
     if (routine_.rungs.empty()) routine_.rungs.emplace_back().key = hashBytes(routine_.name);
     for (const OpenJump& jump : jumps_)
       routine_.rungs[jump.rung].transfer.target = place_[existing(source_.labels[jump.number]) - body_.first];
@@ -83,8 +83,8 @@ private:
 
   LoweringContext& context_;
   const TypedModule& source_;
-  const std::vector<ir::RoutineId>& routines_; // by body
-  const std::vector<RunTime>& times_;          // by rung of the module
+  const std::vector<ir::RoutineId>& routines_; // per body
+  const std::vector<RunTime>& times_;          // per rung of the module
   const Body& body_;
   ir::RoutineId id_;
   ir::Routine& routine_;
@@ -92,9 +92,9 @@ private:
   Shared shared_;
   std::vector<uint32_t> place_; // IR rung of each rung of the body
   std::vector<OpenJump> jumps_;
-  // Of the current rung.
+  // State of the current rung.
   RunTime time_;
-  std::vector<ValueId> power_; // by net; invalid where nothing has driven it yet, and for the rail
+  std::vector<ValueId> power_; // per net; invalid if nothing has driven it yet, and for the rail
   std::vector<ValueId> pins_;
   std::vector<Leave> leaves_;
 };
@@ -118,7 +118,7 @@ void BodyLowering::mark(ir::MarkKind kind, ValueId value, const ladder::Element&
                       {kind, value, element.line, element.column, text.append(more)});
 }
 
-// The power that coils and boxes get; the left rail always has it.
+// Marks the power at the inputs of coils and boxes; that of the left rail is constant.
 void BodyLowering::markInputs(const TypedRung& typed, const ladder::Element& element) {
   if (context_.marks == nullptr || element.kind == ladder::ElementKind::Contact) return;
   const bool coil = element.kind == ladder::ElementKind::Coil;
@@ -129,7 +129,7 @@ void BodyLowering::markInputs(const TypedRung& typed, const ladder::Element& ele
            pins[i].name.empty() ? std::string() : fmt::format(" {}", pins[i].name));
 }
 
-// A box that passes on the power at a pin asks nothing.
+// Marks an output. A box that only passes on the power at a pin gets no mark.
 void BodyLowering::markOutput(const ladder::Element& element, ValueId condition, ValueId output) {
   if (context_.marks == nullptr || !output.valid()) return;
   if (std::find(pins_.begin(), pins_.end(), output) != pins_.end()) return;
@@ -180,7 +180,7 @@ void BodyLowering::lowerRung(const TypedRung& typed) {
   leaves_.clear();
   for (size_t i = 0; i < typed.elements.size(); ++i) lowerElement(b, memory, typed, i);
   if (leaves_.empty()) return;
-  // The conditions of all but the first wait in registers for the rungs that follow.
+  // All conditions but the first are kept in slots for the helper rungs that follow.
   std::vector<ir::SlotId> conditions;
   slots_.setElement("leave");
   for (size_t i = 1; i < leaves_.size(); ++i) {
@@ -227,8 +227,8 @@ bool hasTimer(const TypedRung& rung) {
   return std::ranges::any_of(rung.elements, [](const TypedElement& e) { return e.row->lower == lowerTimer; });
 }
 
-// What each rung of a module knows of the run's time. Where one with a timer may go by it, the module begins with a
-// rung that takes it.
+// For each rung of the module, how its timers get the elapsed time. If any of them can use the run's time, the module
+// begins with a rung that takes it.
 std::vector<RunTime> takeTime(LoweringContext& context, const TypedModule& module, ir::Routine& routine) {
   std::vector<RunTime> times(module.rungs.size());
   if (!context.config.runsAtWholeMs() || context.given != nullptr) return times;

@@ -1,4 +1,4 @@
-// ROT, the shift register and the arrays (man. §6.6, §6.7).
+// ROT, the shift register and the array instructions (man. §6.6, §6.7).
 #include "frontend/dialects/nct/lower/lower.h"
 #include "ir/core/ops.h"
 
@@ -23,7 +23,7 @@ struct Path {
   ValueId negative;
 };
 
-// All four are at least 0 and in range, so no difference overflows; only the number of positions may be 2^31.
+// The four positions are at least 0 and in range, so no difference overflows; only their number can reach 2^31.
 Path findPath(Lowering& box, const Ring& ring) {
   RungBuilder& b = box.b;
   const ValueId one = b.i32(1), zero = b.i32(0);
@@ -46,7 +46,7 @@ Path findPath(Lowering& box, const Ring& ring) {
 
 } // namespace
 
-// Calculates on the rising edge; the output keeps the last direction (l.1675), also when a value was out of range.
+// Calculates on the rising edge; the output keeps the last direction (l.1675), even if a value was out of range.
 ValueId lowerRotation(Lowering& box) {
   RungBuilder& b = box.b;
   Memory& memory = box.memory;
@@ -74,7 +74,7 @@ ValueId lowerRotation(Lowering& box) {
   return b.slotLoad(output);
 }
 
-// Left: the incoming bit enters at bit 0 and bit 31 goes out; right: the other way round. The output keeps its bit.
+// Left: the new bit enters at bit 0 and bit 31 leaves; right: the other way round. The output keeps the bit that left.
 ValueId lowerShiftRegister(Lowering& box) {
   RungBuilder& b = box.b;
   const ValueId edge = risingEdge(box, "edge", 0);
@@ -100,7 +100,7 @@ ValueId lowerShiftRegister(Lowering& box) {
 
 namespace {
 
-// Word i of the shifted or rotated bit string, from two words of the original. A shift reads 0 outside the array.
+// Word i of the shifted or rotated bit string, computed from two source words. A shift reads 0 outside the array.
 ValueId shiftedWord(Lowering& box, const WordRange& array, ValueId i, ValueId words, ValueId bits) {
   RungBuilder& b = box.b;
   const bool left = box.variant == kShiftLeft || box.variant == kRotateLeft;
@@ -108,7 +108,7 @@ ValueId shiftedWord(Lowering& box, const WordRange& array, ValueId i, ValueId wo
   const ValueId one = b.i32(1);
   const auto fetch = [&](ValueId index) {
     if (rotate) {
-      // `index` is at most one length away from the array.
+      // `index` is at most one array length out of range.
       const ValueId wrapped = left ? b.select(b.ltS(index, b.i32(0)), b.add(index, array.length), index)
                                    : b.select(b.leS(array.length, index), b.sub(index, array.length), index);
       return box.memory.loadIn(array, wrapped);
@@ -126,8 +126,8 @@ ValueId shiftedWord(Lowering& box, const WordRange& array, ValueId i, ValueId wo
 
 } // namespace
 
-// The result is put together in scratch memory and copied back, so that no word is read after it was written. With
-// fixed addresses the loops are as long as the array, else as long as the memory.
+// The result is assembled in scratch memory and copied back, so no word is read after it was written. With fixed
+// addresses the loops are as long as the array, otherwise as long as the memory.
 ValueId lowerArray(Lowering& box) {
   RungBuilder& b = box.b;
   Memory& memory = box.memory;
@@ -138,7 +138,7 @@ ValueId lowerArray(Lowering& box) {
     const ValueId count = memory.integer(box.operands[2], valid);
     if (box.operands[2].form != Form::Constant) valid = memory.both(valid, b.not_(b.ltS(count, b.i32(0))));
     const WordRange array = memory.range(from, to);
-    // In order: at least one word.
+    // The ends must be in order: at least one word.
     if (array.first.valid()) valid = memory.both(valid, b.ltS(b.i32(0), array.length));
     const bool fixed = !array.first.valid();
     return guarded(box, valid, [&] {

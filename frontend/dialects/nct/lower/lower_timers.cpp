@@ -1,4 +1,4 @@
-// TOND, TOFFD, TPULSE (man. §6.4): the register holds the time that remains, in milliseconds.
+// TOND, TOFFD, TPULSE (man. §6.4): the register holds the remaining time in milliseconds.
 #include <array>
 
 #include "frontend/dialects/nct/lower/lower.h"
@@ -14,18 +14,18 @@ using ir::ValueId;
 
 namespace {
 
-// By time basis: milliseconds a unit, and the greatest set value (l.1353-1385).
+// Milliseconds per unit and the largest set value, per time basis (l.1353-1385).
 constexpr int64_t kUnitMs[] = {1, 1000, 60'000, 3'600'000};
 constexpr int64_t kLimit[] = {2'147'483'647, 2'147'483, 35'791, 596};
 constexpr int64_t kUsPerMs = 1000;
 
 struct TimerState {
   SlotId active;    // triggered at the last evaluation
-  SlotId evaluated; // of an off-delay: at least once
-  SlotId since;     // see countedSince; invalid: each run evaluates the timer, its time is the run's
+  SlotId evaluated; // off-delay only: evaluated at least once
+  SlotId since;     // see passedSince; invalid if each run evaluates the timer: it then uses the run's time
 };
 
-// The entry of a table for a basis that is known at run time only.
+// Table entry for a basis that is known only at run time.
 ValueId choose(RungBuilder& b, ValueId basis, const int64_t (&table)[4]) {
   ValueId value = b.i32(table[3]);
   for (int i = 2; i >= 0; --i) value = b.select(b.eq(basis, b.i32(i)), b.i32(table[i]), value);
@@ -57,15 +57,16 @@ ValueId preset(Lowering& box, ValueId& valid) {
 
 ValueId wholeMs(RungBuilder& b, ValueId us) { return b.divU(us, b.constant(Type::I64, kUsPerMs)); }
 
-// As i32: more than a register can hold (24 days) leaves nothing of what it holds.
+// The time as i32, saturated at the largest value of a register (24 days), which ends any timer.
 ValueId atMostRegister(RungBuilder& b, ValueId ms) {
   const ValueId most = b.constant(Type::I64, INT32_MAX);
   return b.zextOrTrunc(Type::I32, b.select(b.ltU(ms, most), ms, most));
 }
 
-// The time since the last evaluation, where it is not known when that was: `since` is what the register has been
-// counted down to, in microseconds, for what is less than a millisecond counts later. -1: the timer was never
-// evaluated, or runs on in a changed program where its time was the run's; then nothing counts yet.
+// Time since the last evaluation in milliseconds, for a timer that is not evaluated in every run. The slot `since`
+// holds the time, in microseconds, up to which the register has been counted down; fractions of a millisecond count
+// later. -1: the timer was never evaluated, or used the run's time before the program was changed; then no time has
+// passed yet.
 ValueId passedSince(RungBuilder& b, SlotId slot) {
   const ValueId last = b.slotLoad(slot);
   const ValueId since = b.select(b.ltS(last, b.constant(Type::I64, 0)), b.now(), last);
@@ -74,8 +75,8 @@ ValueId passedSince(RungBuilder& b, SlotId slot) {
   return atMostRegister(b, ms);
 }
 
-// One evaluation; gives the output. The trigger writes the preset and counts nothing; afterwards the register loses
-// the whole milliseconds since the last evaluation. Idle, it holds the preset.
+// One evaluation; returns the output. The trigger writes the preset and counts nothing; later evaluations subtract the
+// whole milliseconds since the last one. An idle timer's register holds the preset.
 ValueId step(Lowering& box, const Place& timer, ValueId presetMs, const TimerState& state) {
   RungBuilder& b = box.b;
   const bool isOffDelay = box.variant == kOffDelay;
@@ -92,13 +93,13 @@ ValueId step(Lowering& box, const Place& timer, ValueId presetMs, const TimerSta
     return b.bit(isOffDelay);
   };
   const auto trigger = [&] {
-    // Never evaluated and its input is off: it has not been triggered, whatever the register holds.
+    // An off-delay that was never evaluated and whose input is off has not been triggered, whatever the register holds.
     const ValueId rest = isOffDelay ? b.select(b.slotLoad(state.evaluated), presetMs, b.i32(0)) : presetMs;
     box.memory.storeWord(timer, rest);
     begin(true);
     return outputOf(b.eq(rest, b.i32(0)));
   };
-  // What the program wrote into the register is counted down, too.
+  // A value that the program wrote into the register is counted down as well.
   const auto count = [&] {
     const ValueId left = box.memory.loadWord(timer);
     const ValueId passed = state.since.valid() ? passedSince(b, state.since) : b.slotLoad(box.time.passedMs);
@@ -116,9 +117,9 @@ ValueId step(Lowering& box, const Place& timer, ValueId presetMs, const TimerSta
 
 } // namespace
 
-// The time since the run before, of a task whose runs are whole milliseconds apart.
+// Time since the previous run, for a task whose runs are whole milliseconds apart.
 RunTime lowerRunTime(RungBuilder& b, SlotMaker& slots) {
-  const SlotId last = slots.make("last", Type::I64, -1); // when the run before was; -1: there was none
+  const SlotId last = slots.make("last", Type::I64, -1); // time of the previous run; -1: none
   const RunTime time{slots.make("passed", Type::I32, 0, true)};
   const ValueId now = b.now();
   const ValueId before = b.slotLoad(last);
@@ -129,7 +130,8 @@ RunTime lowerRunTime(RungBuilder& b, SlotMaker& slots) {
   return time;
 }
 
-// An evaluation with invalid operands leaves the timer alone, so with operands that may be invalid its time is its own.
+// An evaluation with invalid operands does not touch the timer, so a timer whose operands may be invalid measures its
+// own time.
 ValueId lowerTimer(Lowering& box) {
   const Place timer = box.memory.word(box.operands[0].address, AccessBound::User);
   ValueId valid = timer.valid;
@@ -140,7 +142,7 @@ ValueId lowerTimer(Lowering& box) {
   return guarded(box, valid, [&] { return step(box, timer, presetMs, state); });
 }
 
-// The limit of the set value depends on the basis.
+// Checks the set value; its limit depends on the basis.
 void checkTimer(std::span<const Operand> operands, const Config&, Diagnostics& diagnostics) {
   const Operand& set = operands[1];
   const Operand& basis = operands[2];
@@ -162,7 +164,7 @@ namespace {
 
 enum Pins : size_t { kClock, kDown, kClear };
 
-// An operand of 0 to 2147483647.
+// Loads an operand of 0 to 2147483647; a negative value clears `valid`.
 ValueId count(Lowering& box, size_t i, ValueId& valid) {
   const ValueId value = box.memory.integer(box.operands[i], valid);
   if (box.operands[i].form == Form::Constant) return value;
@@ -171,8 +173,8 @@ ValueId count(Lowering& box, size_t i, ValueId& valid) {
   return value;
 }
 
-// CNT stops at the end value until it is reset (l.1509); CNTR goes round from one end to the other (l.1545-1549). A
-// counter keeps its direction, so there are branches.
+// The next value. CNT stops at the end value until it is reset (l.1509); CNTR continues at the other end (l.1545-1549).
+// The direction rarely changes, so it is a branch.
 ValueId counted(Lowering& box, ValueId value, ValueId start, ValueId end) {
   RungBuilder& b = box.b;
   const auto from = [&](ValueId last, ValueId atLast, int32_t step) {
@@ -185,8 +187,8 @@ ValueId counted(Lowering& box, ValueId value, ValueId start, ValueId end) {
 
 } // namespace
 
-// The reset goes before the clock; the clock's edge is remembered whatever else happens. Most scans have neither, and
-// leave the counter alone.
+// The reset has priority over the clock; the clock's edge is stored in any case. Most scans have neither, and leave the
+// counter unchanged.
 ValueId lowerCounter(Lowering& box) {
   RungBuilder& b = box.b;
   const ValueId edge = risingEdge(box, "clock", kClock);

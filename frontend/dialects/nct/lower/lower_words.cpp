@@ -1,4 +1,4 @@
-// Moving, logic and integer arithmetic (man. §6.3, §6.8, §6.9).
+// Moves, logic and integer arithmetic (man. §6.3, §6.8, §6.9).
 #include "frontend/dialects/nct/lower/lower.h"
 
 namespace rung::frontend::nct {
@@ -9,7 +9,7 @@ using ir::ValueId;
 
 namespace {
 
-// `compute` gives the result's value and sets the flags.
+// `compute` returns the result's value and sets the flags.
 template <class Compute>
 ValueId binary(Lowering& box, Compute compute) {
   return execute(box, [&] {
@@ -25,7 +25,7 @@ ValueId binary(Lowering& box, Compute compute) {
   });
 }
 
-// Invalid ids: 0.
+// An invalid id stands for 0.
 struct ArithmeticFlags {
   ValueId error;
   ValueId under;
@@ -56,7 +56,7 @@ ValueId lowerMove(Lowering& box) {
   });
 }
 
-// The bit pattern, also of a NaN.
+// Moves the bit pattern, which preserves a NaN.
 ValueId lowerMoveDouble(Lowering& box) {
   RungBuilder& b = box.b;
   return execute(box, [&] {
@@ -85,8 +85,8 @@ ValueId lowerLogic(Lowering& box) {
   });
 }
 
-// FL_CY is the unsigned carry or borrow. FL_OF: two numbers without sign give one with it; FL_UF: the other way round
-// (l.738-759). So the exact result is above or below what a word can hold.
+// FL_CY is the unsigned carry or borrow. FL_OF: two positive operands give a negative result; FL_UF: the reverse
+// (l.738-759). In both cases the exact result is outside the range of a word.
 ValueId lowerAddSub(Lowering& box) {
   RungBuilder& b = box.b;
   return binary(box, [&](ValueId x, ValueId y) {

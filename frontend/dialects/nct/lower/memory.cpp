@@ -1,4 +1,4 @@
-// Accesses to the memory of the dialect (see memory.h).
+// Accesses to the dialect's memory (see memory.h).
 #include "frontend/dialects/nct/lower/memory.h"
 
 #include <algorithm>
@@ -24,11 +24,11 @@ ValueId Memory::loadRegister(uint32_t word) {
   return b_.load(Type::I32, {.space = spaces_.m, .byte = word * 4, .bit = 0});
 }
 
-// An unsigned comparison of the distance from the first word covers both ends: the sum wraps, and no sum that wraps
-// falls into 0000 to 9999 by accident. The window of a write leaves the reserved word out, though it is within reach.
+// A single unsigned comparison of the distance from the first word checks both ends: the sum wraps, and no wrapped sum
+// falls into 0000 to 9999. The window of a write excludes the reserved word, although its address is valid.
 void Memory::compute(Place& place, const Address& address, AccessBound bound, uint32_t words) {
   place.fixed = false;
-  if (address.indexRegister == kNoRegister) { // only the bit's number is computed
+  if (address.indexRegister == kNoRegister) { // only the bit number is computed
     place.window = {.space = place.space, .byte = address.word * 4, .count = 1};
     place.index = b_.i32(0);
     place.wordNo = b_.i32(address.word);
@@ -92,16 +92,15 @@ bool Memory::dropped(const Place& place) const {
   return place.space == spaces_.m && (place.fixed || place.window.count == 1) && place.word == kReserved;
 }
 
-// Only outputs go to the time-slice memory (l.548): inputs are the NC's, and what is written to them is lost
+// Only outputs are copied to the time-slice memory (l.548): the NC owns the inputs, and values written to them are lost
 // at the next synchronisation.
 bool Memory::masked(const Place& place) const {
   if (place.space != spaces_.m) return false;
-  if (!place.fixed && place.window.count != 1) return true; // an index may lead anywhere
+  if (!place.fixed && place.window.count != 1) return true; // an index may reach any word
   return place.word >= config_.firstOutput && place.word < config_.plcNvram;
 }
 
-// For masks of computed places: the index is the word's own number. Bits of inputs are set there, and no code reads
-// them.
+// Mask window of a computed place, indexed by word number. Bits of inputs may be set in it, but no code reads them.
 ir::Window Memory::maskWindow(const Place& place) {
   if (place.window.count == 1)
     written_.add(place.word, place.word + 1);
@@ -154,8 +153,8 @@ void Memory::storeBit(const Place& place, ValueId value) {
   }
 }
 
-// A fixed bit takes a load, a logic operation and a store; the mask remembers only a bit that was really written. As a
-// choice it says that the bit is written and not asked (ir::RungUse::keeps).
+// A fixed bit is a load, a logic operation and a store; the mask records a bit only if it was really written. The
+// select expresses that the bit is written without being read (ir::RungUse::keeps).
 void Memory::forceBit(const Place& place, ValueId cond, bool value) {
   if (dropped(place)) return;
   if (!place.fixed) {
@@ -195,7 +194,7 @@ void Memory::storeDouble(const Place& place, ValueId value) {
     return;
   }
   b_.storeAt(place.window, place.index, value);
-  if (place.window.byte == next.word * 4) { // of one that begins at the reserved word the other half is stored
+  if (place.window.byte == next.word * 4) { // a double that begins at the reserved word: only its upper half is stored
     b_.when(b_.eq(place.index, b_.i32(-1)), [&] { storeWord(next, upperWord(value)); });
   }
   if (place.window.byte >= config_.plcNvram * 4) return;
@@ -218,7 +217,7 @@ ValueId Memory::real(const Operand& operand, ValueId& valid) {
   return loadDouble(p, Type::F64);
 }
 
-// With two fixed ends the window is the run itself; otherwise it is all of the memory.
+// With two fixed ends in order the window is exactly the range; otherwise it is the whole memory.
 WordRange Memory::range(const Place& first, const Place& last) {
   WordRange range;
   const auto number = [&](const Place& p) { return p.fixed ? b_.i32(p.word) : p.wordNo; };
@@ -239,12 +238,12 @@ ValueId Memory::loadIn(const WordRange& range, ValueId i) {
   return b_.loadAt(Type::I32, range.window, range.first.valid() ? b_.add(range.first, i) : i);
 }
 
-// The mask's window begins where the range's does and ends with the NC area.
+// The mask's window begins with that of the range and ends with the NC area.
 void Memory::storeIn(const WordRange& range, ValueId i, ValueId value) {
   ValueId index = range.first.valid() ? b_.add(range.first, i) : i;
   uint32_t begin = range.window.byte / 4;
   const uint32_t end = begin + range.window.count;
-  if (begin <= kReserved) { // neither FLAGS nor the reserved word
+  if (begin <= kReserved) { // excludes FLAGS and the reserved word
     index = b_.sub(index, b_.i32(kReserved + 1 - begin));
     begin = kReserved + 1;
   }

@@ -1,4 +1,4 @@
-// Reading operands (see operand_parser.h).
+// Parses operands (see operand_parser.h).
 #include "frontend/dialects/nct/read/operand_parser.h"
 
 #include <algorithm>
@@ -29,7 +29,7 @@ bool allHex(std::string_view text) {
   return !text.empty() && std::ranges::all_of(text, [](char c) { return text::hexDigit(c) >= 0; });
 }
 
-// A number without the sign that constants begin with, with its own sign or without.
+// Whether the text is a number, with or without a sign, but without the mark of a constant.
 bool isDecimalNumber(std::string_view text) {
   if (text.starts_with('-') || text.starts_with('+')) text.remove_prefix(1);
   return allDigits(text);
@@ -40,15 +40,15 @@ bool isRealNumber(std::string_view text) {
   return point != std::string_view::npos && allDigits(text.substr(0, point)) && allDigits(text.substr(point + 1));
 }
 
-// A number of too many digits is too large for everything.
+// A number with too many digits exceeds every range.
 int64_t decimalValue(std::string_view digits) { return text::numberIn<int64_t>(digits).value_or(INT64_MAX); }
 
-// #1F, whose $ is missing; #0b101 has a base of its own.
+// Whether the text is a hexadecimal constant without its $, such as #1F. #0b101 is not: it has a base of its own.
 bool isOwnHex(std::string_view text) {
   return text.starts_with('#') && allHex(text.substr(1)) && !frontend::foreignNumber(text.substr(1));
 }
 
-// The value of #b101 if it is a binary number, which it may be as well as #$B101.
+// The value of #b101, which may be a binary number or mean #$B101.
 std::optional<uint32_t> bitsAfterB(std::string_view text) {
   if (text.size() < 3 || text[0] != '#' || text::upper(text[1]) != 'B') return std::nullopt;
   return text::numberIn<uint32_t>(text.substr(2), 2);
@@ -56,19 +56,19 @@ std::optional<uint32_t> bitsAfterB(std::string_view text) {
 
 constexpr char kHexConstant[] = "a hexadecimal constant is written #${}";
 
-// A time is two operands of a timer.
+// Explains that a time is two operands of a timer.
 std::string timeNote(const frontend::ForeignTime& time) {
   return fmt::format("a timer takes a time as two operands, a number and its unit (#0 ms, #1 s, #2 min, #3 h): #{} #{}",
                      time.amount, static_cast<int>(time.unit));
 }
 
-// A constant that is written as in other languages becomes one of these.
+// Writes a constant of another language as a constant of this one.
 std::string comparedOperand(std::string_view text) {
   if (isDecimalNumber(text)) return fmt::format("#{}", text);
   return isRealNumber(text) ? fmt::format("*{}", text) : std::string(text);
 }
 
-// [x>5]: comparisons are boxes before the coil.
+// Reports [x>5]: comparisons are boxes before the coil.
 void reportComparison(Diagnostics& diagnostics, const Word& word, const frontend::ForeignComparison& comparison) {
   const std::string right = comparedOperand(comparison.right);
   const frontend::ForeignWord* box = frontend::findForeign(foreignWords(), comparison.word);
@@ -123,7 +123,7 @@ struct ConstantReader {
     return Constant{.kind = ConstantKind::Hex, .integer = static_cast<int32_t>(*value), .real = 0};
   }
 
-  // The decimal point is required, an exponent does not exist (l.660).
+  // The decimal point is required, exponents are not allowed (l.660).
   std::optional<Constant> real(std::string_view digits) {
     const bool negative = digits.starts_with('-');
     if (negative || digits.starts_with('+')) digits.remove_prefix(1);
@@ -131,7 +131,7 @@ struct ConstantReader {
     if (point == std::string_view::npos || digits.size() < 2) return malformed();
     for (size_t i = 0; i < digits.size(); ++i)
       if (i != point && !text::isDigit(digits[i])) return malformed();
-    const std::string padded = "0" + std::string(digits) + "0"; // a digit on both sides of the point
+    const std::string padded = "0" + std::string(digits) + "0"; // ensures a digit on both sides of the point
     const auto value = text::realIn(padded);
     if (!value) return tooLarge(kRealRange);
     return Constant{.kind = ConstantKind::Real, .integer = 0, .real = negative ? -*value : *value};
@@ -163,7 +163,7 @@ public:
   }
 
 private:
-  // A constant index that leads from one signal into another: nothing the manual forbids, and hardly meant (l.6438).
+  // Warns of a constant index that leads from one signal into another: allowed, but hardly intended (l.6438).
   void checkElement(std::string_view text) {
     const nc::Signal& signal = *result_.base->signal;
     const int64_t words = int64_t{signal.count} * signal.strideBytes / 4;
@@ -293,7 +293,7 @@ private:
 
 bool isConstantText(std::string_view text) { return text.starts_with('#') || text.starts_with('*'); }
 
-// A lone name of a constant; null when it is anything else. Says nothing.
+// The constant that `text` names; null if it is anything else. Reports nothing.
 const Symbol* constantSymbol(std::string_view text, Symbols& symbols) {
   if (text.empty() || text::isDigit(text[0]) || text.find_first_of(".:,") != std::string_view::npos) return nullptr;
   const Symbol* found = symbols.find(text);
@@ -364,7 +364,7 @@ Operand parseOperand(const Word& word, Symbols& symbols, Diagnostics& diagnostic
     operand.form = Form::Text;
     return operand;
   }
-  if (symbols.wasRefused(word.text)) return operand; // -K1, 1M1: its declaration was reported
+  if (symbols.wasRefused(word.text)) return operand; // -K1, 1M1: its declaration has been reported
   if (const auto comparison = frontend::foreignComparison(word.text)) {
     reportComparison(diagnostics, word, *comparison);
     return operand;

@@ -1,4 +1,4 @@
-// Names of a program.
+// Symbols of a program.
 #include "frontend/dialects/nct/read/symbols.h"
 
 #include <fmt/format.h>
@@ -19,14 +19,14 @@
 namespace rung::frontend::nct {
 namespace {
 
-// Declarations that refer to each other, one after the other; bounds the recursion.
+// Limit on declarations that refer to each other in a chain; bounds the recursion.
 constexpr int kMaxDepth = 200;
 
 struct Alias {
   std::string_view misprint;
   std::string_view name;
 };
-// Misprints of the manual that programs may have taken over (l.8220, l.8796).
+// Misprints of the manual that programs may have copied (l.8220, l.8796).
 constexpr Alias kAliases[] = {{"AP_DISP", "AP_DISPD"}, {"SP_SENDD", "SP_SEND"}};
 
 constexpr std::string_view kNameRule = "a name has letters, digits and _, and begins with a letter or _";
@@ -36,8 +36,8 @@ bool isName(std::string_view text) {
   return !text.empty() && !text::isDigit(text[0]) && std::ranges::all_of(text, isNameChar);
 }
 
-// What a designation of IEC 81346 or another bad name may become: K1 of -K1, _1M1 of 1M1; empty when that is not a
-// name.
+// A valid name similar to a designation of IEC 81346 or another bad name: K1 for -K1, _1M1 for 1M1; empty if there is
+// none.
 std::string likeName(std::string_view text) {
   std::string name;
   for (const char c : text) {
@@ -50,13 +50,13 @@ std::string likeName(std::string_view text) {
   return isName(name) ? name : std::string();
 }
 
-// An address as IEC 61131, FANUC and Siemens write it, without its '%': I1, X8, QX0, MW100.
+// Whether the text is an address in the style of IEC 61131, FANUC or Siemens, without its '%': I1, X8, QX0, MW100.
 bool isOtherAddress(std::string_view text) {
   const size_t letters = std::min(text.find_first_not_of("ABDEIMQWXYabdeimqwxy"), text.size());
   return letters >= 1 && letters <= 2 && letters < text.size() && text::isDigit(text[letters]);
 }
 
-// INP0.5, OUT12: a bit or a word of the control's inputs and outputs whose numbers lack zeros, and what is meant.
+// The correct name for an input or output whose numbers lack leading zeros, such as INP0.5 or OUT12; otherwise empty.
 std::string withZeros(std::string_view operand) {
   const std::string_view name = operand.substr(0, operand.find('.'));
   const auto number = text::numberIn<uint32_t>(name.substr(std::min<size_t>(3, name.size())));
@@ -171,7 +171,7 @@ void Symbols::explain(DiagBuilder& report, std::span<const UndeclaredName> uses)
   if (isOtherAddress(name)) report.note(kAddresses);
   noteConstant(report, name, sources_, {});
   if (!isName(name)) report.note(kNameRule);
-  // (S7001.00) is a coil of the name S7001.
+  // (S7001.00) would be a coil named S7001.
   const bool glued = name.size() > 1 && (name[0] == 'S' || name[0] == 'R') && !use.whole.empty() &&
                      (text::isDigit(name[1]) || find(name.substr(1)) != nullptr);
   const bool coloned = (name == "S" || name == "R") && use.whole.size() > 2 && use.whole[1] == ':';
@@ -185,7 +185,7 @@ void Symbols::explain(DiagBuilder& report, std::span<const UndeclaredName> uses)
                             config_.plcRam));
 }
 
-// Names of the program come first.
+// Finds the most similar name; the program's own names are preferred.
 text::Likely Symbols::similarTo(std::string_view name) const {
   const text::Likely own = text::likeliest(name, all(), &Symbol::name);
   if (!own.word.empty()) return own;
@@ -205,7 +205,7 @@ void Symbols::declare(const ladder::Declaration& declaration) {
     if (const std::string like = likeName(name); !like.empty()) report.note("for instance " + like);
     return;
   }
-  indexOf(name); // one of the NC is declared by it
+  indexOf(name); // adds the NC's symbol of this name, if there is one
   Symbol symbol = word(name, 0);
   symbol.declared = declaration.name.range;
   symbol.kind = SymbolKind::Bad;
@@ -274,7 +274,7 @@ void Symbols::resolveAddress(Symbol& symbol) {
     return;
   }
   const std::optional<ParsedAddress> parsed = parseAddress(value, value.text, *this, diagnostics_);
-  // In a circle the inner meeting was reported and has settled the symbol.
+  // In a cycle the inner call has reported the error and settled the symbol.
   if (!parsed || !symbol.pending) return;
   const Address& address = parsed->address;
   if (!address.isFixed()) {

@@ -1,4 +1,4 @@
-// The table (see instructions.h): the rows of all families in one list, and ways to find one.
+// The instruction table (see instructions.h): the rows of all families in one list, and look-up functions.
 #include "frontend/dialects/nct/rows/instructions.h"
 
 #include <algorithm>

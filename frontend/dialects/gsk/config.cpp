@@ -1,4 +1,4 @@
-// The configuration, read and checked.
+// Reads and checks the configuration.
 #include "frontend/dialects/gsk/config.h"
 
 #include <optional>
@@ -15,11 +15,11 @@ namespace rung::frontend::gsk {
 namespace {
 
 constexpr uint64_t kMaxParts = 1000; // 8 s
-constexpr uint64_t kNumbers = 100;   // of timers and counters
+constexpr uint64_t kNumbers = 100;   // number of timers, and of counters
 constexpr uint64_t kMaxWord = 65535;
 constexpr const char* kSlotSteps = "slot_steps";
 
-// The number after `prefix`, 1-100; nullopt when the key is another one.
+// The number after `prefix`, 0 if it is malformed; nullopt if the key does not begin with `prefix`.
 std::optional<uint64_t> numberOf(std::string_view key, std::string_view prefix) {
   if (!key.starts_with(prefix)) return std::nullopt;
   return network::parseDigits(key.substr(prefix.size())).value_or(0);
@@ -35,7 +35,7 @@ struct Entry {
 };
 
 std::optional<Entry> entryOf(std::string_view key, const std::string& text) {
-  const uint64_t value = text::wholeIn<uint64_t>(text).value_or(UINT64_MAX); // above every limit
+  const uint64_t value = text::wholeIn<uint64_t>(text).value_or(UINT64_MAX); // larger than every limit
   if (const auto timer = numberOf(key, "tmr."))
     return Entry{kTimer, *timer, value, timerUnitMs(static_cast<int64_t>(*timer)) * kMaxWord};
   if (const auto counter = numberOf(key, "ctr.")) return Entry{"ctr", *counter, value, kMaxWord};

@@ -1,4 +1,4 @@
-// The dialect's entry: reads all files, checks the program, lowers it.
+// Entry of the dialect: reads the files, checks the program, lowers it.
 #include "frontend/dialects/gsk/gsk.h"
 
 #include "frontend/dialects/gsk/config.h"
@@ -40,7 +40,7 @@ public:
     const bool understood = reading.read();
     network::analyse(context_, program_, !understood);
     texts_ = configuredMessages(context_.sources, files_[0], options_, context_.diagnostics);
-    const bool hasTexts = options_.config.contains("messages"); // without a file they may be elsewhere
+    const bool hasTexts = options_.config.contains("messages"); // without a file the texts may be elsewhere
     if (hasTexts && !context_.diagnostics.hasErrors()) checkTexts(program_, texts_, context_.diagnostics);
     context_.analysis.settle();
   }
@@ -50,7 +50,7 @@ public:
   std::unique_ptr<ir::Module> build() override {
     const size_t before = context_.diagnostics.errorCount();
     std::unique_ptr<ir::Module> module = lowerProgram(program_, context_, files_, options_);
-    if (context_.diagnostics.errorCount() != before) return nullptr; // a slot is too short
+    if (context_.diagnostics.errorCount() != before) return nullptr; // the steps of a slot do not suffice
     module->messages = std::move(texts_);
     return module;
   }
@@ -75,13 +75,13 @@ std::optional<std::string> format(SourceManager& sources, FileId file, Diagnosti
   return network::format(kLanguage, sources, file, diagnostics);
 }
 
-// Basic commands have no lowering function of their own: the network is theirs.
+// Basic commands have no lowering function of their own: networks lower them.
 bool isBuilt(const frontend::InstructionInfo& info) {
   const network::Row* row = info.number < 0 ? nullptr : kLanguage.findFunction(static_cast<uint64_t>(info.number));
   return row == nullptr || row->built;
 }
 
-constexpr std::string_view kShownSpaces[] = {"A"}; // requests of messages
+constexpr std::string_view kShownSpaces[] = {"A"}; // message requests
 
 } // namespace
 

@@ -1,4 +1,4 @@
-// What the manual says of the language as a whole.
+// Properties of the language, according to the manual.
 #include "frontend/dialects/gsk/language.h"
 
 #include "frontend/dialects/gsk/areas.h"
@@ -30,7 +30,7 @@ constexpr network::Level kLevels[] = {
 const network::Language kLanguage = {
     .name = "gsk",
     .listExtension = ".pmc",
-    // man. Part I §4; the last three are of Rung (P12)
+    // man. Part I §4; the last three are Rung's (P12)
     .commands = {"LD", "LDI", "AND", "ANI", "OR", "ORI", "ORB", "ANB", "OUT", "OUTI", "SET", "RST", "FUNC", "PRM",
                  "TABLE", "DIALECT", "SYMBOL", "CONST"},
     .rows = networkRows(),

@@ -1,5 +1,4 @@
-// Arithmetic with the flags of R1000 (§6.5, §7.9, §7.12). All of it is done in twice the width, where nothing
-// overflows.
+// Arithmetic with the flags of R1000 (§6.5, §7.9, §7.12). It is computed in twice the width, where nothing overflows.
 #include "frontend/dialects/gsk/lower/lower.h"
 
 namespace rung::frontend::gsk {
@@ -10,7 +9,7 @@ using ir::ValueId;
 
 Type doubled(const Lowering& f) { return ir::intOfBytes(2 * f.function.length); }
 
-// P22: bit 0 zero, bit 1 negative, bit 5 overflow; the whole byte is rewritten. An invalid value is 0.
+// P22: bit 0 zero, bit 1 negative, bit 5 overflow; the whole byte is rewritten. An invalid id stands for 0.
 void storeFlags(Lowering& f, ValueId zero, ValueId negative, ValueId overflow) {
   ir::RungBuilder& b = f.b;
   ValueId byte = b.constant(Type::I8, 0);
@@ -24,7 +23,7 @@ void storeFlags(Lowering& f, ValueId zero, ValueId negative, ValueId overflow) {
   f.store({areas::kR, kResultFlags}, byte);
 }
 
-// Stores the low bytes of a result and the flags; gives W, the overflow (P38).
+// Stores the low bytes of a result and the flags; returns W, the overflow (P38).
 ValueId storeResult(Lowering& f, const network::Address& address, ValueId wide) {
   ir::RungBuilder& b = f.b;
   const ValueId low = b.trunc(f.dataType(), wide);
@@ -46,7 +45,7 @@ void lowerArithmetic(Lowering& f) {
   });
 }
 
-// A divisor of 0 changes nothing but W (P38).
+// With a divisor of 0 only W changes (P38).
 void lowerDivision(Lowering& f) {
   f.resettable([&] {
     ir::RungBuilder& b = f.b;
@@ -64,7 +63,7 @@ void lowerDivision(Lowering& f) {
 
 namespace {
 
-// Signed binary to BCD; W when the magnitude has more digits than the length holds.
+// Signed binary to BCD; returns W: the magnitude has more digits than the length holds.
 ValueId toBcd(Lowering& f, ValueId source) {
   constexpr int64_t kLimits[] = {0, 99, 9999, 0, 99999999};
   ir::RungBuilder& b = f.b;
@@ -76,7 +75,7 @@ ValueId toBcd(Lowering& f, ValueId source) {
   return overflow;
 }
 
-// BCD to binary; W when a digit is above 9, which shows when the number is written in BCD again.
+// BCD to binary; returns W: a digit is above 9, which shows because converting back gives another number.
 ValueId fromBcd(Lowering& f, ValueId source, ValueId sign) {
   ir::RungBuilder& b = f.b;
   const ValueId magnitude = b.bcdDecode(source);

@@ -1,4 +1,4 @@
-// Sections of the reference page after the instructions.
+// Sections of the reference page that follow the instructions.
 #include "frontend/dialects/gsk/reference.h"
 
 #include <algorithm>
@@ -163,7 +163,7 @@ std::vector<const nc::Signal*> signalsByAddress() {
   return signals;
 }
 
-// A part for each area, and a table in it for each 16 bytes.
+// One part per area, with one table per 16 bytes.
 void signals(ReferencePage& page) {
   constexpr uint32_t kBytesOfBlock = 16;
   page.section(

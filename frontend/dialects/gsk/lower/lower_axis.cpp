@@ -1,4 +1,4 @@
-// PLC axis control: hands command blocks to the CNC over the signals of a group (§9; man. l.3241-3393, 7591-7803).
+// PLC axis control: passes command blocks to the CNC through the signals of a group (§9; man. l.3241-3393, 7591-7803).
 #include <vector>
 
 #include "frontend/dialects/gsk/lower/lower.h"
@@ -12,7 +12,7 @@ using ir::ValueId;
 namespace axis = nc::gsk;
 
 enum : uint8_t { kIdle, kSent, kDone };
-constexpr int64_t kUnknownCommand = 1 << 5; // of the result (P53); groups are checked by the compiler
+constexpr int64_t kUnknownCommand = 1 << 5; // bit of the result (P53); the compiler checks groups
 
 struct Step {
   ValueId state, out;
@@ -45,7 +45,7 @@ ValueId AxisLowering::isKnown(ValueId command) {
   return isIn(b_, b_.and_(command, b_.constant(Type::I8, axis::kAxisCommandBits)), set);
 }
 
-// Seven bytes, EMSBK and EC first (P51), then EBUF reports them to the CNC (man. l.7672).
+// Writes the seven bytes, EMSBK and EC first (P51); then a change of EBUF reports them to the CNC (man. l.7672).
 void AxisLowering::send() {
   const auto signal = [](uint32_t byte) { return network::Address{areas::kG, byte}; };
   const ValueId command = f_.load(Type::I8, data(axis::kAxisCommandAt));
@@ -58,7 +58,7 @@ void AxisLowering::send() {
   f_.store(f_.param(2).address, state(0));
 }
 
-// ACT=1 in the state idle.
+// The step for ACT=1 in the idle state.
 Step AxisLowering::idle(ValueId ready) {
   return b_.choose(
       isKnown(f_.load(Type::I8, data(axis::kAxisCommandAt))),
@@ -72,7 +72,7 @@ Step AxisLowering::idle(ValueId ready) {
       });
 }
 
-// RST=0. OUT comes when EBSY has followed EBUF, whatever ACT is (man. l.3322), and goes when ACT is 0.
+// The step for RST=0. OUT becomes 1 when EBSY equals EBUF, independent of ACT (man. l.3322), and 0 when ACT is 0.
 Step AxisLowering::call(ValueId ready) {
   const ValueId old = b_.slotLoad(f_.slot("state", Type::I8));
   return b_.choose(
@@ -103,7 +103,7 @@ void AxisLowering::run() {
 
 void lowerAxisControl(Lowering& f) { AxisLowering(f).run(); }
 
-// Signals that say where a machine axis is (§10; man. l.3397-3555).
+// Instructions on the position of a machine axis (§10; man. l.3397-3555).
 
 namespace {
 
@@ -111,19 +111,19 @@ using ir::Type;
 using ir::ValueId;
 
 constexpr uint32_t kZones = 8;
-// Machine positions that the CNC gives: one each of the axes 1-8 (signals of axes are 1-8 as well, man. l.3368).
+// The CNC provides the machine positions of axes 1-8 (axis signals are 1-8 as well, man. l.3368).
 constexpr uint32_t kMachineAxes = 8;
 constexpr uint32_t kPositionBytes = 4;
 
-// What the NC writes before each slot, axis n at byte 4(n-1), in 0.001 mm. A program that does not look at positions
-// has none.
+// Space that the NC writes before each slot: axis n at byte 4(n-1), in 0.001 mm. Programs that do not read positions do
+// not have it.
 ir::Window machinePositions(Lowering& f) {
   return f.hidden("@MPOS", kPositionBytes * kMachineAxes, kPositionBytes * (kMachineAxes - 1) + 1);
 }
 
-// A block: the number of the axis in one byte, then limits of 4 bytes (man. l.3437-3447; P56).
+// A block with the axis number in one byte, then limits of 4 bytes (man. l.3437-3447; P56).
 struct Limits {
-  ValueId position;            // 0 where there is no such axis
+  ValueId position;            // 0 if there is no such axis
   std::vector<ValueId> values; // signed, in 0.001 mm
   ValueId result;              // bit 0: no such axis, bit 1: limits not ascending (P55)
   ValueId good;
@@ -148,7 +148,7 @@ Limits limitsOf(Lowering& f, uint32_t count) {
 
 } // namespace
 
-// Bit 7 is the zone below limit I; each limit that the position has reached leads one bit further down.
+// Bit 7 is the zone below limit I; each limit that the position has reached moves the bit one place down.
 void lowerPositionZones(Lowering& f) {
   f.b.when(f.act(), [&] {
     ir::RungBuilder& b = f.b;
@@ -161,7 +161,7 @@ void lowerPositionZones(Lowering& f) {
   });
 }
 
-// Both limits belong to the zone (man. l.3555).
+// Both limits are part of the zone (man. l.3555).
 void lowerPositionRange(Lowering& f) {
   f.latchedOutput(f.act(), {}, [&] {
     ir::RungBuilder& b = f.b;

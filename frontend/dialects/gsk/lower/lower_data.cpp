@@ -6,7 +6,7 @@ namespace rung::frontend::gsk {
 using ir::Type;
 using ir::ValueId;
 
-// Bit i is (code = first + i): 1 shifted by code - first, which shifts everything out where the difference is above 7.
+// Bit i is (code == first + i): 1 shifted left by code - first, which gives 0 if the difference is above 7.
 void lowerDecode(Lowering& f) {
   ir::RungBuilder& b = f.b;
   const ValueId code = f.load(f.dataType(), f.param(1).address);
@@ -36,7 +36,7 @@ void lowerMove(Lowering& f) {
   });
 }
 
-// All is read before anything is written, so that areas may overlap (P33).
+// Everything is read before anything is written, so the areas may overlap (P33).
 void lowerMoveBlock(Lowering& f) {
   f.b.when(f.act(), [&] {
     struct Piece {

@@ -1,4 +1,4 @@
-// A program of this control: presets as the operator typed them, and the parts of Level 2 (P3).
+// Lowers a program of this control: presets from the configuration, and the parts of Level 2 (P3).
 #include "frontend/dialects/gsk/config.h"
 #include "frontend/dialects/gsk/lower/lower.h"
 #include "frontend/network/lower/lower_module.h"
@@ -33,7 +33,7 @@ void reportLongRungs(network::ModuleLowering& lowering, const network::LevelStat
   }
 }
 
-// n of P3: from the period, or from the steps of a slot; with both the period counts and must suffice.
+// n of P3: computed from the period or from the steps per slot. With both, the period applies and must be long enough.
 uint32_t partsOfLevel2(network::ModuleLowering& lowering, const frontend::CompileOptions& options,
                        Diagnostics& diagnostics) {
   const auto given = partsOf(options);

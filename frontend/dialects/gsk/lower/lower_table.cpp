@@ -11,12 +11,12 @@ namespace {
 using ir::Type;
 using ir::ValueId;
 
-// Entries of a table in D that exist (P35).
+// Number of entries of a table in D that fit before the area's end (P35).
 uint32_t entriesFrom(const network::Address& table, uint32_t length) {
   return (kLanguage.at(table.area).bytes - table.byte) / length;
 }
 
-// Entries of `length` bytes one after the other; the index counts bytes.
+// Window of consecutive entries of `length` bytes; its index counts bytes.
 ir::Window tableWindow(Lowering& f, const network::Address& table) {
   const uint32_t entries = entriesFrom(table, f.function.length);
   return f.window(table, entries * f.function.length, (entries - 1) * f.function.length + 1);
@@ -28,7 +28,7 @@ ValueId unsignedWord(Lowering& f, size_t param, Type type) {
   return f.b.zextOrTrunc(type, f.load(f.dataType(), f.param(param).address));
 }
 
-// Where a path leads, counted from position 0 (§7.5).
+// Direction and result of a rotation, positions counted from 0 (§7.5).
 struct Path {
   ValueId reverse; // bit
   ValueId result;
@@ -40,7 +40,7 @@ Path pathOf(Lowering& f, ValueId count, ValueId current, ValueId target, ValueId
   const ValueId one = b.constant(Type::I64, 1);
   const ValueId forward = wrapped(b.sub(b.add(target, count), current));
   const ValueId backward = wrapped(b.sub(b.add(current, count), target));
-  const ValueId reverse = b.and_(f.condition(1), b.ltU(backward, forward)); // P30: equal ways go forward
+  const ValueId reverse = b.and_(f.condition(1), b.ltU(backward, forward)); // P30: a tie goes forward
   const ValueId pos = f.condition(2);
   const ValueId steps = b.select(reverse, backward, forward);
   const ValueId fewer = b.sub(steps, b.zextOrTrunc(Type::I64, pos));
@@ -65,7 +65,7 @@ void lowerRotation(Lowering& f) {
       f.store(f.param(4).address, b.trunc(f.dataType(), path.result));
       return path.reverse;
     };
-    // Never with a count of 0.
+    // A count of 0 never satisfies the condition.
     return b.choose(b.and_(b.ltU(current, count), b.ltU(target, count)), turn, [&] { return f.oldOutput(); });
   });
 }
@@ -89,10 +89,10 @@ void lowerCodeTable(Lowering& f) {
 
 namespace {
 
-// Entries that are compared together: a short table does not cost what the area holds.
+// Number of entries compared in one block: a short table does not cost as much as the whole area.
 constexpr uint32_t kBlock = 32;
 
-// Whether an entry of the block from `start` matches, of those below `limit`, and the lowest.
+// Whether an entry in the block from `start`, below `limit`, matches; and the index of the first match.
 std::array<ValueId, 2> searchBlock(Lowering& f, ValueId start, ValueId limit, ValueId searched) {
   ir::RungBuilder& b = f.b;
   const network::Address& table = f.param(2).address;
@@ -109,8 +109,8 @@ std::array<ValueId, 2> searchBlock(Lowering& f, ValueId start, ValueId limit, Va
 
 } // namespace
 
-// The lowest entry that matches. As many entries as the number given says, 0 to n for n+1 (man. l.2022-2026), as far as
-// they exist (P35).
+// Finds the first entry that matches. The entry count is given as the operand says: 0 to n for n+1 entries (man.
+// l.2022-2026), limited to those that exist (P35).
 void lowerSearch(Lowering& f) {
   f.resettable([&] {
     ir::RungBuilder& b = f.b;
@@ -129,7 +129,7 @@ void lowerSearch(Lowering& f) {
   });
 }
 
-// Conditions RW, RST, ACT. Valid are the numbers below that of the entries (P36), as far as they exist.
+// Conditions RW, RST, ACT. Indices below the number of entries are valid (P36), if the entries exist.
 void lowerIndexedMove(Lowering& f) {
   f.resettable([&] {
     ir::RungBuilder& b = f.b;

@@ -8,7 +8,7 @@ namespace {
 using ir::Type;
 using ir::ValueId;
 
-constexpr int64_t kNotRunning = INT64_MIN / 2; // as the elapsed time: no gain makes 0 of it
+constexpr int64_t kNotRunning = INT64_MIN / 2; // elapsed time of an idle timer: adding any gain leaves it negative
 
 // The preset in microseconds.
 ValueId presetOf(Lowering& f) {
@@ -25,8 +25,9 @@ ValueId presetOf(Lowering& f) {
   }
 }
 
-// P23. A timer gains the time since it ran in this or in the last scan: not always the scan's, for a jump may bring it
-// into another part of Level 2. When it was not reached for a while it gains one scan's time (P19).
+// Time that a timer gains (P23): the time since it ran in this or the last scan. That is not always the time of a scan,
+// because a jump may move the timer into another part of Level 2. If it was not reached for longer, it gains one scan
+// time (P19).
 ValueId gainOf(Lowering& f) {
   if (f.onceEachRun()) return f.scanTime();
   ir::RungBuilder& b = f.b;
@@ -66,7 +67,7 @@ void lowerCounter(Lowering& f) {
   network::Address value = inMemory ? f.param(1).address : counterValue(f.param(0).value);
   const ValueId cn0 = f.condition(0), down = f.condition(1), reset = f.condition(2);
 
-  // P28: the edge is followed in every scan; CTRC keeps it in bit 0 of register +2.
+  // P28: the edge is evaluated in every scan; CTRC keeps it in bit 0 of register +2.
   ValueId before;
   if (inMemory) {
     const network::Address edge{value.area, value.byte + 2, 0, true};
@@ -78,14 +79,14 @@ void lowerCounter(Lowering& f) {
   const ValueId pulse = frontend::edge(b, before, f.act());
   const ir::SlotId w = f.slot("W", Type::Bit);
 
-  // Branches: a counter keeps its direction.
+  // These are branches because the direction of a counter rarely changes.
   const auto bottom = [&] { return b.zextOrTrunc(Type::I16, cn0); }; // P26
   const auto top = [&] { return f.load(Type::I16, preset); };
   const auto startAgain = [&] {
     f.store(value, b.choose(down, top, bottom));
     return b.bit(false);
   };
-  // From one end to the other.
+  // Counts from one end to the other, then starts again.
   const auto count = [&](ValueId from, ValueId to, ValueId isOver, ValueId next) {
     const ValueId now = b.select(isOver, from, next);
     f.store(value, now);
@@ -114,7 +115,7 @@ void lowerCounter(Lowering& f) {
   f.setOutput(b.choose(reset, [&] { return kept(startAgain()); }, go, ir::kSeldom));
 }
 
-// P39: the memory belongs to the instruction.
+// P39: the edge state belongs to the instruction.
 void lowerEdge(Lowering& f) { f.setOutput(frontend::pulse(f.b, f.slot("edge", Type::Bit), f.act(), f.variant())); }
 
 } // namespace rung::frontend::gsk

@@ -1,4 +1,4 @@
-// Window functions: data of the CNC through a control block (§8; man. l.3089-3239, 8482-8682).
+// Window functions: data of the CNC, accessed through a control block (§8; man. l.3089-3239, 8482-8682).
 #include <algorithm>
 #include <array>
 
@@ -14,11 +14,11 @@ using ir::Type;
 using ir::ValueId;
 namespace window = nc::gsk;
 
-using enum frontend::RequestState; // of a low-speed function (P48); the one that has asked has the lock
-// The answer is not used before the second scan after the request (P48).
+using enum frontend::RequestState; // states of a low-speed function (P48); one with a request holds the lock
+// The answer is used in the second scan after the request at the earliest (P48).
 constexpr uint32_t kAnswerAfterRuns = 2;
 
-// What one run of the instruction comes to. With `finished` the block gets end code, data and result.
+// Result of one run of the instruction. If `finished`, end code, data and result are stored in the block.
 struct Step {
   ValueId out, finished, end, data, length;
 };
@@ -34,9 +34,8 @@ private:
   ValueId word(uint32_t offset) { return f_.load(Type::I16, at(offset)); }
   ir::SlotId ticket() { return f_.slot("ticket", Type::I32); }
   ir::SlotId length() { return f_.slot("length", Type::I16); }
-  // One for all low-speed functions of the program. The instruction that has taken it has a state that is not idle: a
-  // replacement of the program knows from its key what an instruction that is gone has held
-  // (rtlib/change/state_transfer.h).
+  // One lock for all low-speed functions of the program. The instruction that holds it has a state other than idle:
+  // when a program is replaced, the key tells that a removed instruction held the lock (rtlib/change/state_transfer.h).
   static constexpr const char* kLock = "@window/lock";
   ir::SlotId lock() { return f_.shared(kLock, Type::Bit); }
   ir::SlotId state() { return f_.slot(std::string("state") + kLock, Type::I8); }
@@ -70,7 +69,7 @@ private:
   ValueId oldState_, function_, length_, refusal_;
 };
 
-// Functions that `belongs` says, as bits by their codes.
+// The set of functions for which `belongs` is true, as bits by function code.
 template <class Belongs>
 uint64_t setOf(Belongs belongs) {
   uint64_t set = 0;
@@ -79,14 +78,14 @@ uint64_t setOf(Belongs belongs) {
   return set;
 }
 
-// Bytes from the data to the end of the area, at most as many as the longest data; parameters.cpp has seen to one.
+// Bytes from the data to the end of the area, limited to the longest data; parameters.cpp ensures at least one.
 uint32_t WindowLowering::room() const {
   const network::Address data = at(window::kWindowDataAt);
   return std::min(kLanguage.at(data.area).bytes - data.byte, window::kWindowMaxLength);
 }
 
-// P49: what is refused without asking the CNC, as an end code. Data that would run over the end of the area have no
-// valid length (end code 2, man. l.8671).
+// P49: end code of a request that is refused without asking the CNC. Data beyond the end of the area have no valid
+// length (end code 2, man. l.8671).
 ValueId WindowLowering::refusal(ValueId function, ValueId length) {
   const auto access = writes() ? window::WindowAccess::Write : window::WindowAccess::Read;
   const uint64_t known = setOf([&](const auto& f) { return f.access == access; });
@@ -120,7 +119,8 @@ ValueId WindowLowering::request(ValueId function, ValueId length) {
   return b_.serviceRequest(f_.service(nc::gsk::service(kind)), args);
 }
 
-// A host that answers with an error, or not at all where it should have, does not provide the function.
+// End code of an answer. A host that answers with an error, or does not answer although it must, does not provide the
+// function.
 ValueId WindowLowering::endOf(ValueId ticket) {
   const ValueId executed = frontend::isExecuted(b_, ticket);
   const ValueId end = b_.and_(b_.serviceResult(ticket, 0), b_.constant(Type::I64, UINT16_MAX));
@@ -154,7 +154,7 @@ Step WindowLowering::underWay() {
   return fork(b_.eq(oldState_, b_.constant(Type::I8, kDone)), &WindowLowering::whenDone, &WindowLowering::whenPending);
 }
 
-// ACT has to be taken away once (man. l.3139, 8499).
+// ACT must become 0 once before the next call (man. l.3139, 8499).
 Step WindowLowering::whenDone() {
   b_.when(b_.not_(f_.act()), [&] { release(); });
   return nothing(f_.act());
@@ -174,7 +174,7 @@ Step WindowLowering::awaited() {
   return {finished, finished, endOf(asked), b_.serviceResult(asked, 1), b_.slotLoad(length())};
 }
 
-// No network waits for the answer: it is discarded, and releases the lock when it arrives.
+// The call was withdrawn: its answer is discarded and releases the lock when it arrives.
 Step WindowLowering::unwanted() {
   const ValueId there = frontend::isAnswered(b_, b_.slotLoad(ticket()));
   setState(kAbandoned);
@@ -198,7 +198,7 @@ Step WindowLowering::start() {
   return fork(isIn(b_, function_, low), &WindowLowering::lowSpeed, &WindowLowering::immediate);
 }
 
-// High speed: completed in the scan of the call (man. l.8505).
+// High speed: completes in the scan of the call (man. l.8505).
 Step WindowLowering::immediate() {
   const auto ask = [&] {
     const ValueId asked = request(function_, length_);
@@ -209,7 +209,7 @@ Step WindowLowering::immediate() {
   return {b_.bit(true), b_.bit(true), end, data, length_};
 }
 
-// Not while another one has ACT=1, even with its OUT=1 (man. l.8495-8501).
+// Waits while another instruction has ACT=1, even if its OUT is 1 (man. l.8495-8501).
 Step WindowLowering::lowSpeed() {
   const ValueId free = b_.not_(b_.slotLoad(lock()));
   const ValueId good = b_.eq(refusal_, b_.constant(Type::I64, window::kWindowDone));
@@ -227,7 +227,7 @@ void WindowLowering::ask() {
   setState(kPending);
 }
 
-// P47: bit 0 of the result reports an error. Data are valid with end code 0 only (man. l.8665).
+// P47: bit 0 of the result reports an error. Data are valid only with end code 0 (man. l.8665).
 void WindowLowering::finish(const Step& step) {
   f_.setOutput(step.out);
   b_.when(step.finished, [&] {

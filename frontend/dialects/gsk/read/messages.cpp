@@ -1,4 +1,4 @@
-// The file of message texts.
+// Reads the file of message texts.
 #include "frontend/dialects/gsk/read/messages.h"
 
 #include <filesystem>
@@ -21,10 +21,10 @@ namespace {
 
 constexpr uint64_t kMessages = 256;
 
-// Of a bit in A (P57).
+// Message number of a bit in A (P57).
 constexpr uint64_t messageOf(uint64_t byte, uint64_t bit) { return 8 * byte + bit + 1; }
 
-// Of the number itself or the bit; nullopt for anything else.
+// Message number, written as a number or as its bit; nullopt for anything else.
 std::optional<uint64_t> numberOf(std::string_view text) {
   if (const auto number = network::parseDigits(text)) return number;
   const auto split = network::splitAddress(kLanguage, text);

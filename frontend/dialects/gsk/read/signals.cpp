@@ -1,4 +1,4 @@
-// Names and places of signals.
+// Names and addresses of signals.
 #include "frontend/dialects/gsk/read/signals.h"
 
 #include <algorithm>
@@ -40,8 +40,7 @@ std::string textOf(const nc::Signal& signal) {
                      machineNote(signal.group));
 }
 
-// A signal that the given machine does not have, where an operand of `length` bytes is that signal or a bit of it; null
-// when there is none.
+// The signal of another machine that an operand of `length` bytes is or contains a bit of; null if there is none.
 const nc::Signal* foreignSignal(Machine machine, const network::Address& address, uint32_t length) {
   if (kLanguage.at(address.area).use == network::AreaUse::Memory) return nullptr;
   static const std::vector<const nc::Signal*> kOfOneMachine = [] {
@@ -52,7 +51,7 @@ const nc::Signal* foreignSignal(Machine machine, const network::Address& address
   }();
   for (const nc::Signal* signal : kOfOneMachine) {
     if (signal->group == groupOf(machine)) continue;
-    // Bytes that hold a single bit of the other machine among signals of both are none of its business.
+    // A byte operand may contain a single bit of the other machine among signals of both.
     if (signal->type == nc::SignalType::Bit && !address.isBit) continue;
     for (uint32_t i = 0; i < length; ++i) {
       network::Address byte = address;

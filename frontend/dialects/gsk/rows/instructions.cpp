@@ -1,4 +1,4 @@
-// The table (see instructions.h): the rows of all chapters in one list, and ways to find one.
+// The instruction table (see instructions.h): the rows of all chapters in one list, and look-up functions.
 #include "frontend/dialects/gsk/rows/instructions.h"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ using frontend::InstructionInfo;
 
 constexpr auto numberOf = [](const Row& row) { return row.info.number; };
 
-// In the order of their numbers, after the basic instructions, which have none.
+// Rows sorted by number; the basic instructions, which have no numbers, come first.
 constexpr auto kRows = [] {
   const auto chapters = frontend::joinRows(kBasicRows, kTimingRows, kDataRows, kArithmeticRows, kControlRows, kNcRows);
   auto rows = chapters;

@@ -1,5 +1,5 @@
-// Words of each line to columns; a line stays a line, so that nothing has to be known of macros and structures. Blanks
-// between words of an operand stay, as one.
+// Lays out the words of each line in columns. Lines are not joined or split, so macros and structures need not be
+// understood. Blanks between words of an operand are kept as one.
 #include "frontend/dialects/technol/format.h"
 
 #include <fmt/format.h>
@@ -26,14 +26,14 @@ constexpr Table kLabels{
     .second = kInstructionColumn, .third = kOperandColumn, .alignsThird = false, .endsAtBlank = true};
 constexpr Table kMembers = kLabels; // names without a colon
 
-// Where a character of a line is on a screen.
+// Column of a character on the screen, with tabs expanded.
 size_t columnOf(std::string_view line, size_t offset) {
   size_t column = 0;
   for (const char c : line.substr(0, offset)) column = c == '\t' ? (column / kTab + 1) * kTab : column + 1;
   return column;
 }
 
-// Modules, and what is like one.
+// Whether the statement begins in the first column: modules and similar statements.
 bool beginsInFirstColumn(const Row& row) {
   switch (row.role) {
   case Role::Module:
@@ -45,7 +45,7 @@ bool beginsInFirstColumn(const Row& row) {
   }
 }
 
-// Declarations without a label are in between those that have one.
+// Declarations, whose unlabelled lines may occur between labelled ones of a table.
 bool declares(const Row& row) {
   return row.role == Role::Dfm || row.role == Role::Ds || row.role == Role::Str || row.role == Role::Equi;
 }
@@ -77,10 +77,10 @@ private:
   Diagnostics& diagnostics_;
   FileId file_;
   Page page_;
-  std::vector<Token> tokens_;         // of the line
-  std::optional<size_t> commentedAt_; // the column of the comment after the line above
-  bool open_ = false;                 // a comma continues the line above
-  bool stopped_ = false;              // what follows is not read
+  std::vector<Token> tokens_;         // of the current line
+  std::optional<size_t> commentedAt_; // column of the comment of the previous line
+  bool open_ = false;                 // a comma at the end of the previous line continues the statement
+  bool stopped_ = false;              // the rest of the file is not parsed
 };
 
 void Formatter::read(const SourceLine& line) {
@@ -96,7 +96,7 @@ void Formatter::read(const SourceLine& line) {
   ownComment(text.substr(first), commentedAt_.value());
 }
 
-// In the first column, or else where instructions are.
+// Puts a comment on its own line into the first column if it was there, otherwise into the column of instructions.
 void Formatter::ownComment(std::string_view text, size_t column) {
   page_.comment(std::string(column == 0 ? 0 : kInstructionColumn, ' ').append(text));
   commentedAt_.reset();
@@ -124,7 +124,8 @@ bool Formatter::isMember(size_t token) const {
   return row != nullptr && row->role == Role::MemberSize && row->info.mnemonic != "DUP";
 }
 
-// `NAME:`, or the name of a structure, its member or its data, which has no colon; 0 where there is none.
+// Number of tokens of a label: `NAME:`, or the name of a structure, member or instance, which has no colon; otherwise
+// 0.
 size_t Formatter::labelTokens() const {
   if (tokens_.size() > 1 && tokens_[0].kind != TokenKind::Punct && tokens_[1].is(':')) return 2;
   if (!isName(0) || !isName(1) || findRow(tokens_[0].text) != nullptr) return 0;
@@ -133,13 +134,13 @@ size_t Formatter::labelTokens() const {
   return isMember(1) || isData || isRepeated ? 1 : 0;
 }
 
-// After a comma that is one too many.
+// Whether the line begins a statement although the previous one ends with a comma.
 bool Formatter::beginsStatement() const {
   if (labelTokens() != 0) return true;
   return isName(0) && findRow(tokens_[0].text) != nullptr && reservedWord(tokens_[0].text) == Reserved::Yes;
 }
 
-// As it is written, with its apostrophes; no blanks at commas.
+// The source text from `token` on, with its apostrophes; without blanks around commas.
 std::string Formatter::spelledFrom(size_t token) const {
   std::string text;
   for (size_t i = token; i < tokens_.size(); ++i) {
@@ -178,8 +179,8 @@ void Formatter::statement(std::string_view comment) {
 
 } // namespace
 
-// A text that is not UTF-8 is read as such for the sake of what is reported; it is laid out as it is, as all characters
-// that a line is divided by are the same in all encodings.
+// A text that is not UTF-8 is decoded first, so that errors are reported correctly. The layout then uses the original
+// bytes: all characters that separate words are the same in every encoding.
 std::optional<std::string> format(SourceManager& sources, FileId file, Diagnostics& diagnostics) {
   const std::string_view text = sources.text(file);
   const size_t before = diagnostics.errorCount();
@@ -195,7 +196,7 @@ std::optional<std::string> format(SourceManager& sources, FileId file, Diagnosti
   return out;
 }
 
-// Numbered lines.
+// Listing with line and rung numbers.
 
 namespace {
 
@@ -221,7 +222,7 @@ std::string listing(const SourceManager& sources, std::span<const FileId> files,
     const uint32_t lines = sources.lineCount(file);
     for (uint32_t line = 1; line <= lines; ++line) {
       const std::string_view text = sources.lineText(file, line);
-      if (line == lines && text.empty()) break; // after the last line end
+      if (line == lines && text.empty()) break; // the empty line after the last line end
       const auto number = numbers.find({sources.name(file), line});
       const std::string rung = number == numbers.end() ? "" : std::to_string(number->second);
       if (text.empty())

@@ -1,4 +1,4 @@
-// Questions about a program as it has been read (see program.h).
+// Queries about a program that has been read (see program.h).
 #include "frontend/dialects/technol/program.h"
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 namespace rung::frontend::technol {
 
 uint32_t Declarations::bytesOf(ir::SpaceId space) const {
-  // Looked for in all signals once: it is asked for with each operand.
+  // Computed once: this function is called for each operand.
   static const uint32_t interfaceBytes = nc::areaBytes(nc::technolSignals(), "I");
   static const uint32_t blockBytes = nc::areaBytes(nc::technolSignals(), "BLK");
   uint32_t bytes = 0;

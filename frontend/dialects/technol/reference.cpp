@@ -28,7 +28,7 @@ std::string_view typeText(nc::SignalType type) {
   return "";
 }
 
-// What a program may do with it (§4.1 of the inventory).
+// How a program may access the signal (§4.1 of the inventory).
 std::string_view accessText(const nc::Signal& signal) {
   switch (signal.direction) {
   case nc::Direction::In: return std::string_view(signal.group).starts_with("8.") ? "read only" : "read";
@@ -38,7 +38,7 @@ std::string_view accessText(const nc::Signal& signal) {
   return "";
 }
 
-// Where a program uses the name.
+// Where a program may use the name.
 std::string useText(const nc::Signal& signal) {
   const std::string_view area = signal.area;
   if (area == "I") return "";
@@ -88,7 +88,7 @@ void addReference(ReferencePage& page) {
 
 namespace {
 
-// In upper case without what is in brackets: BLK[0].M[3] is BLK.M.
+// The name in upper case without bracketed parts: BLK[0].M[3] becomes BLK.M.
 std::string plainWord(std::string_view name) {
   std::string word;
   int depth = 0;
@@ -100,7 +100,7 @@ std::string plainWord(std::string_view name) {
   return word;
 }
 
-// SYST_TIME_INFO.TIME_SEC is TIME_INFOS.TIME_SEC.
+// Replaces a cell by the name of its structure: SYST_TIME_INFO.TIME_SEC becomes TIME_INFOS.TIME_SEC.
 std::string ofItsStructure(const std::string& word) {
   const size_t point = word.find('.');
   const nc::Signal* whole =
@@ -108,7 +108,7 @@ std::string ofItsStructure(const std::string& word) {
   return whole && *whole->structure ? plainWord(whole->structure) + word.substr(point) : word;
 }
 
-// The word is the whole name, or that of a member or of an element of a block alone.
+// Whether the word is the signal's full name, or its member or block element name alone.
 bool names(const std::string& word, const nc::Signal& signal) {
   const std::string symbol = plainWord(signal.symbol);
   if (symbol == word) return true;

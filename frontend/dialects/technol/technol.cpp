@@ -1,4 +1,4 @@
-// The dialect's entry: source files to a module.
+// Entry of the dialect: compiles source files into a module.
 #include "frontend/dialects/technol/technol.h"
 
 #include <set>
@@ -29,7 +29,7 @@ uint32_t periodOf(const CompileOptions& options, Diagnostics& diagnostics) {
   return kDefaultPeriodUs;
 }
 
-// "X Y Z A" of "XYZA".
+// "XYZA" as "X Y Z A".
 std::string axisNamesOf(const CompileOptions& options) {
   std::string names;
   const auto letters = options.config.find("axes");
@@ -84,7 +84,7 @@ std::unique_ptr<CheckedProgram> check(SourceManager& sources, std::span<const Fi
   return std::make_unique<TechnolProgram>(sources, files, options, diagnostics);
 }
 
-// Each once, in the order of the files.
+// Included files, each once, in the order in which they are read.
 std::vector<std::string> included(SourceManager& sources, std::span<const FileId> files,
                                   const CompileOptions& options) {
   std::set<std::string_view> seen;
@@ -94,7 +94,7 @@ std::vector<std::string> included(SourceManager& sources, std::span<const FileId
   Declarations declarations;
   Symbols symbols(discarded);
   const auto before = static_cast<uint32_t>(sources.fileCount());
-  // Adds the files that it reads.
+  // Adds the included files to `sources`.
   readProgram({sources, {.includePaths = options.includePaths}, discarded, program, declarations, symbols}, files);
   std::vector<std::string> names;
   for (uint32_t i = before; i < sources.fileCount(); ++i)

@@ -1,4 +1,4 @@
-// Symbols and typed operands as the analysis has them (see analysis.h).
+// Fills the analysis with symbols and typed operands (see analysis.h).
 #include "frontend/dialects/technol/check/analysis.h"
 
 #include <algorithm>
@@ -9,10 +9,10 @@
 namespace rung::frontend::technol {
 namespace {
 
-// In the order of the spaces of a module (symbols.h).
+// Names of the module's spaces, in the order of symbols.h.
 constexpr std::string_view kSpaces[] = {"NCI", "DATA", "MECH", "@REG", "BLK", "IO"};
 
-// What follows a name on the line of its declaration: the rest of the declaration, and its comment.
+// The text after a name on the line of its declaration: the rest of the declaration, and its comment.
 struct Declared {
   std::string_view rest;
   std::string_view comment;
@@ -26,7 +26,7 @@ Declared declaredAt(const SourceManager& sources, SourceRange name) {
   return {text::trimmed(rest.substr(value)), text::trimmed(line.substr(std::min(mark + 1, line.size())))};
 }
 
-// Constants, labels and the like have none.
+// Memory of a symbol; constants, labels and the like have none.
 NamedPlace placeOf(const Symbol& symbol) {
   const uint32_t bit = symbol.byte * 8 + symbol.bit;
   if (symbol.broken || !symbol.space.valid()) return {};
@@ -45,7 +45,7 @@ Definition definitionOf(const SourceManager& sources, const Symbol& symbol) {
   Definition definition{.name = symbol.name};
   definition.place = placeOf(symbol);
   definition.usedByControl = isCalledByControl(symbol);
-  // Of a mechanism the compiler declares the line, and of a macro's use its own names: no source has them.
+  // The compiler declares the line cell of a mechanism and the local names of a macro's use: they are in no source.
   const bool written = symbol.declared.valid() && sources.text(symbol.declared) == symbol.name;
   if (symbol.predeclared || !written) return definition;
   const Declared declared = declaredAt(sources, symbol.declared);
@@ -56,14 +56,14 @@ Definition definitionOf(const SourceManager& sources, const Symbol& symbol) {
   return definition;
 }
 
-// A label or procedure is a place in the program too; it is numbered as symbols are.
+// Records a label or procedure, which is also a place in the program; it has the number of its symbol.
 void addTarget(const Symbol& symbol, uint32_t number, SourceRange range, bool defines, Analysis& analysis) {
   const bool isLabel = symbol.kind == SymbolKind::Label;
   if (range.valid() && (isLabel || symbol.kind == SymbolKind::Procedure))
     analysis.use({.range = range, .scope = isLabel ? "label" : "procedure", .number = number, .defines = defines});
 }
 
-// Of an operand that names an address: a bit, or as much as its type or size says.
+// Memory of an operand that names an address: a bit, or the width of its type or variable.
 NamedPlace placeOf(const Operand& operand) {
   if (!operand.place.space.valid()) return {};
   const std::string_view space = kSpaces[operand.place.space.index];
@@ -77,8 +77,8 @@ bool setsBits(const Statement& statement, std::span<const Operand> operands) {
   return !operands.empty() && statement.row->info.operands[0].kind == &kinds::kFlag && operands[0].value == 1;
 }
 
-// A type before the name makes a write wider than the variable: it reaches what lies after it. A read by such a type
-// is how the bytes of a number are put together (man. l.7796).
+// Whether a prefix may make a write wider than the variable, so that it also changes what follows. A wider read is the
+// usual way to combine the bytes of a number (man. l.7796).
 bool isWiderWrite(const Operand& operand) {
   return operand.form == Operand::Form::Cell && operand.prefixed && operand.access != Access::Read;
 }

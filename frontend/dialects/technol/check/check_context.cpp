@@ -1,4 +1,4 @@
-// Calls, and what registers hold (see check_context.h).
+// Calls, and the contents of the registers (see check_context.h).
 #include "frontend/dialects/technol/check/check_context.h"
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 
 namespace rung::frontend::technol {
 
-// Cycles and depth of calls.
+// Checks call cycles and call depth.
 
 void ProcedureCalls::check(const SourceProgram& program, Diagnostics& diagnostics) const {
   const CallGraph::Order order = graph_.order();
@@ -21,7 +21,7 @@ void ProcedureCalls::check(const SourceProgram& program, Diagnostics& diagnostic
 
 void ProcedureCalls::checkDepth(std::span<const uint32_t> calleesFirst, Diagnostics& diagnostics) const {
   constexpr uint32_t kMaxDepth = RUNG_STACK_DEPTH - 8;
-  std::vector<uint32_t> depth(calleesFirst.size(), 1); // of the calls below
+  std::vector<uint32_t> depth(calleesFirst.size(), 1); // call depth including the callees
   for (const uint32_t caller : calleesFirst)
     for (const CallGraph::Call& call : graph_.of(caller)) {
       depth[caller] = std::max(depth[caller], depth[call.callee] + 1);
@@ -29,7 +29,7 @@ void ProcedureCalls::checkDepth(std::span<const uint32_t> calleesFirst, Diagnost
     }
 }
 
-// What the registers hold.
+// Contents of the registers.
 
 void LostRegisters::reportIf(bool& lost, bool reads, const Statement& statement, std::string_view name) {
   if (!lost || !reads) return;

@@ -1,4 +1,4 @@
-// The walk over the code of a program (see check_program.h).
+// Checks the code of a program, statement by statement (see check_program.h).
 #include "frontend/dialects/technol/check/check_program.h"
 
 #include "frontend/dialects/technol/check/check_context.h"
@@ -7,7 +7,7 @@
 namespace rung::frontend::technol {
 namespace {
 
-// Of a module in one file: nothing is open where it begins.
+// Checks the part of a module in one file. Each part begins without an open equation.
 class PartChecker {
 public:
   PartChecker(TypedProgram& typed, OperandParser& parser, ProcedureCalls& calls, Diagnostics& diagnostics)
@@ -37,7 +37,7 @@ private:
 };
 
 void PartChecker::check(const Statement& statement, Typed& typed) {
-  if (statement.label != kNone) { // control may come from elsewhere
+  if (statement.label != kNone) { // a jump may lead here
     lost_.forget();
     mixing_.forget();
   }
@@ -51,7 +51,7 @@ void PartChecker::check(const Statement& statement, Typed& typed) {
   case Role::Timed: parse(statement, typed); return;
   case Role::MacroBegin: typed.stack = equation_.beginMacro(statement); return;
   case Role::MacroEnd: return equation_.endMacro(statement);
-  default: return; // nothing that runs
+  default: return; // not executed
   }
 }
 
@@ -67,7 +67,7 @@ bool PartChecker::parse(const Statement& statement, Typed& typed) {
   return parsed;
 }
 
-// Some take a value from DR where their operand is left out.
+// Whether the statement reads DR. Some instructions do so only if their operand is omitted.
 bool readsDr(const Row& row, std::span<const Operand> operands) {
   if ((row.effects & kReadsDr) == 0) return false;
   if ((row.effects & kDrIfNotGiven) == 0) return true;

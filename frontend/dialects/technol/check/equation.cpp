@@ -8,7 +8,8 @@
 
 namespace rung::frontend::technol {
 
-// Values beyond the stack's end are lost; that is reported once, also where they are taken off.
+// Loads RLO, pushing its old value. Values beyond the stack's end are lost; the overflow is reported once, and their
+// pops are not reported.
 void Equation::loadRlo(SourceRange at, StackUse& use) {
   use.begins = !open_;
   if (!open_) {
@@ -45,7 +46,7 @@ StackUse Equation::begin(const Statement& statement) {
   return use;
 }
 
-// A macro that pushes does so before its statements, as LDR before its load.
+// A macro that pushes does so before its statements, like LDR before its load.
 StackUse Equation::beginMacro(const Statement& statement) {
   macros_.push_back({stored_, open_, diagnostics_.errorCount()});
   StackUse use;

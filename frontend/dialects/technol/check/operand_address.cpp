@@ -13,7 +13,7 @@
 namespace rung::frontend::technol {
 namespace {
 
-constexpr int kMostBrackets = 100; // one inside the other
+constexpr int kMostBrackets = 100; // nesting depth
 
 // Index of the last point outside brackets, or npos.
 size_t lastPoint(std::span<const Token> tokens) {
@@ -30,20 +30,20 @@ struct PrefixType {
   uint8_t prefix;
   ir::Type type;
 };
-// The second prefix of a block's element; DWRD without one (man. l.7026).
+// Types for the second prefix of a block's element; without a prefix it is a DWRD (man. l.7026).
 constexpr PrefixType kBlockPrefixes[] = {{kByte, ir::Type::I8},
                                          {kWord, ir::Type::I16},
                                          {kDword, ir::Type::I32},
                                          {kQword, ir::Type::I64},
                                          {kReal, ir::Type::F64}};
 
-// NOT X of other languages: a name alone may be one of the program.
+// Whether the operand is `NOT X` of other languages; NOT alone may be a name of the program.
 bool isNotWord(std::span<const Token> tokens) {
   return tokens.size() > 1 && text::equalsIgnoringCase(tokens[0].text, "NOT") && tokens[0].kind == TokenKind::Name &&
          (tokens[1].kind == TokenKind::Name || tokens[1].is('('));
 }
 
-// LA (X and LO Y) of other languages.
+// Reports `LA (X` and `LO Y)` of other languages.
 bool reportBracket(Diagnostics& diagnostics, SourceRange operand, std::string_view bracket) {
   diagnostics.report(diag::SyntaxError, operand)
           .note("there are no brackets around conditions: LDR begins what is inside, and LA or LO without an operand "
@@ -61,7 +61,7 @@ bool isBx(const Token& token) { return token.kind == TokenKind::Name && text::eq
 // term {+|- term}
 bool OperandParser::address(std::span<const Token> tokens, Address& out) {
   int sign = 1;
-  bool good = true; // a term that is wrong does not hide the mistakes of the others
+  bool good = true; // a bad term must not hide errors in the others
   size_t i = 0;
   if (tokens.empty()) return syntax("an address", tokens);
   while (i < tokens.size()) {
@@ -175,7 +175,7 @@ bool OperandParser::addSymbol(const Token& name, int sign, Address& out) {
   return true;
 }
 
-// A member of the structure that the address has brings its type, an array none.
+// Adds a member of a structure of the program. A single member sets the type; an array leaves it open.
 bool OperandParser::addOwnMember(const Token& member, Address& out) {
   const std::string key = symbolKey(member.text);
   for (const StructureMember& m : declarations_.structures[out.own].members) {
@@ -192,7 +192,7 @@ bool OperandParser::addOwnMember(const Token& member, Address& out) {
   return false;
 }
 
-// The parts of a CAN packet are known without a declaration: the manual's examples use them on plain texts of 12 bytes
+// Adds a member of a CAN packet. These need no declaration: the manual's examples use them on plain texts of 12 bytes
 // (man. l.3868-3874, l.3892-4046).
 bool OperandParser::addPacketMember(const Token& member, Address& out) {
   const uint32_t found = symbols_.findMember("TCANMSGS", member.text);
@@ -201,7 +201,8 @@ bool OperandParser::addPacketMember(const Token& member, Address& out) {
   return true;
 }
 
-// A member of an interface structure brings its type, too; after any other address a member is a constant offset.
+// Adds a member. A member of an interface structure also sets the type; after any other address it is a constant
+// offset.
 bool OperandParser::addMember(const Token& member, Address& out) {
   if (out.own != kNone && addOwnMember(member, out)) return true;
   if (const uint32_t found = symbols_.findMember(out.structure, member.text); found != kNone) {
@@ -229,8 +230,9 @@ bool OperandParser::addMember(const Token& member, Address& out) {
   return true;
 }
 
-// Of the interface: what is added to a cell stays in it (PLC_MEM_BACKUP has 10000 bytes, man. l.7549). A wider type
-// alone may reach the cells that follow (STO WORD.BZH09 writes BZH10, too, man. l.6572; LOD WORD.PB11, l.7796).
+// Whether an offset from an interface cell leads outside the cell (PLC_MEM_BACKUP has 10000 bytes, man. l.7549).
+// Without an offset a wider type may reach the following cells (STO WORD.BZH09 also writes BZH10, man. l.6572; LOD
+// WORD.PB11, l.7796).
 bool OperandParser::leavesItsCell(const Address& address, int64_t byte, uint32_t bytes) {
   const bool isMoved = address.hasBase && address.byte != address.begin;
   return address.space == kInterfaceSpace && isMoved && !address.indexed &&
@@ -242,7 +244,7 @@ bool OperandParser::setPlace(const Address& address, int64_t byte, uint32_t byte
   out.begin = address.begin;
   out.end = address.end;
   out.indexed = address.indexed;
-  // An index is checked when it is used; only what no index reaches is wrong now.
+  // An index is checked at run time; now only addresses that no index can correct are errors.
   const int64_t slack = address.indexed ? 0xFFFF : 0;
   if (byte < -slack || byte + bytes > declarations_.bytesOf(address.space) + slack) {
     diagnostics_.report(diag::AddressOutOfRange, out.range)
@@ -262,7 +264,7 @@ bool OperandParser::setPlace(const Address& address, int64_t byte, uint32_t byte
 
 // ---- bits -----------------------------------------------------------------------------------------------------------
 
-// WR -X, EDGE_H -X
+// Reports a negation that is not allowed, such as WR -X or EDGE_H -X.
 bool OperandParser::reportNegated(bool writes, const Operand& out) {
   diagnostics_.report(diag::WrongOperandKind, out.range)
           .note(writes ? "what is written is inverted before: CA and WR X, or MOVR X,-Y"
@@ -271,7 +273,7 @@ bool OperandParser::reportNegated(bool writes, const Operand& out) {
   return false;
 }
 
-// I0.0, BITS.8
+// Reports a missing or wrong bit name, as in I0.0 and BITS.8.
 bool OperandParser::noBitName(std::span<const Token> tokens, SourceRange point) {
   const std::string found = tokens.empty() ? "nothing" : "'" + std::string(tokens[0].text) + "'";
   DiagBuilder report = diagnostics_.report(diag::SyntaxError, rangeOf(program_.sources, tokens, point));
@@ -281,7 +283,7 @@ bool OperandParser::noBitName(std::span<const Token> tokens, SourceRange point) 
   return false;
 }
 
-// NOT X
+// Reports NOT X.
 bool OperandParser::negatedByWord(bool mayBeNegated, bool writes, std::span<const Token> tokens, const Operand& out) {
   if (!mayBeNegated) return reportNegated(writes, out);
   DiagBuilder report = diagnostics_.report(diag::SyntaxError, tokens[0].range());
@@ -342,7 +344,7 @@ bool OperandParser::bareBit(const BitKind& kind, const OperandInfo& info, const 
   if (found == nullptr) return false;
   const Symbol& symbol = *found;
   out.form = Operand::Form::Bit;
-  if (symbol.mechanism != kNone) { // the name of a cell and a mechanism
+  if (symbol.mechanism != kNone) { // a name that is both a cell and a mechanism
     out.place = {.space = kMechanismSpace, .byte = symbol.mechanism * kMechanismBytes};
     return true;
   }
@@ -384,8 +386,7 @@ bool OperandParser::bitAt(const OperandInfo& info, std::span<const Token> where,
   return checkWrite(info, address.protection, address.hasBase ? address.name : name.text, out.range);
 }
 
-// ---- command blocks: BLK[n].[TYPE.]element[[k]]
-// ------------------------------------------------------------------------
+// ---- command blocks: BLK[n].[TYPE.]element[[k]] --------------------------------------------------
 
 bool OperandParser::block(const OperandInfo& info, std::span<const Token> tokens, bool wantsBit, Operand& out) {
   if (tokens.size() < 6 || !tokens[3].is(']') || !tokens[4].is('.')) return syntax("BLK[n].ELEMENT", tokens);

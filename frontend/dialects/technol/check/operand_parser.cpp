@@ -1,4 +1,4 @@
-// Operands other than addresses.
+// Parses operands other than addresses.
 #include "frontend/dialects/technol/check/operand_parser.h"
 
 #include <algorithm>
@@ -31,7 +31,7 @@ const PrefixName* prefixNamed(std::string_view name) {
   return nullptr;
 }
 
-// Of those that begin with the same letter, or of the others.
+// The most similar prefix among those with the same first letter, or among the others.
 text::Likely similarPrefix(std::string_view name, bool sameLetter) {
   const auto fits = [&](const PrefixName& p) { return (p.name[0] == text::upper(name[0])) == sameLetter; };
   return text::likeliest(name, kPrefixes | std::views::filter(fits), &PrefixName::name);
@@ -57,7 +57,7 @@ std::string widthsOf(ir::TypeSet types) {
 
 bool isOne(TokenKind kind, std::span<const Token> tokens) { return tokens.size() == 1 && tokens[0].kind == kind; }
 
-// One of the words that a kind takes by itself or in the place of an address.
+// Takes one of the words that a kind accepts by itself or instead of an address.
 bool takeWord(const Words& words, std::span<const Token> tokens, Operand& out) {
   if (!isOne(TokenKind::Name, tokens)) return false;
   const int64_t number = numberOfWord(words.list, tokens[0].text);
@@ -124,7 +124,7 @@ bool OperandParser::parse(const Statement& statement, std::vector<Operand>& out)
     operand.firstName = static_cast<uint32_t>(symbols_.uses().size());
     ok = one(info, operands[i], operand) && ok;
     operand.nameCount = static_cast<uint32_t>(symbols_.uses().size()) - operand.firstName;
-    // The type of a count holds for the time, too (man. l.2133).
+    // The type of the count also applies to the time (man. l.2133).
     inherited_ = i == 0 && (statement.row->effects & kWaits) && operand.prefixed ? naturalPrefix(operand.type) : 0;
   }
   inherited_ = 0;
@@ -141,7 +141,7 @@ bool OperandParser::one(const OperandInfo& info, std::span<const Token> tokens, 
   return std::visit([&](const auto& takes) { return read(takes, info, tokens, out); }, kind.takes);
 }
 
-// The reader has read it.
+// Already read by the reader.
 bool OperandParser::read(const DeclarationKind&, const OperandInfo&, Tokens, Operand&) { return true; }
 
 bool OperandParser::inRange(int64_t value, int64_t least, int64_t most, SourceRange at) {
@@ -150,8 +150,8 @@ bool OperandParser::inRange(int64_t value, int64_t least, int64_t most, SourceRa
   return false;
 }
 
-// TIM and TEX: a written type holds for count and time, so the time is a cell then (man. l.2133); a constant time fits
-// the count.
+// TIM and TEX: an explicit type applies to count and time, so the time must be a cell (man. l.2133); a constant time
+// must fit the count.
 bool OperandParser::waitOperands(std::span<Operand> operands) {
   const Operand& count = operands[0];
   Operand& time = operands[1];
@@ -186,7 +186,7 @@ uint8_t OperandParser::takePrefix(std::span<const Token>& tokens) {
   return prefix->prefix;
 }
 
-// WRD.CELL, DWORD.CELL: nothing has this name, but a prefix has nearly.
+// Detects a misspelt prefix such as WRD.CELL or DWORD.CELL: no symbol has this name, but a prefix is similar.
 bool OperandParser::misspeltPrefix(std::span<const Token> tokens) {
   if (tokens.size() < 3 || tokens[0].kind != TokenKind::Name || !tokens[1].is('.')) return false;
   if (symbols_.find(tokens[0].text, file_) != kNone) return false;
@@ -208,7 +208,7 @@ bool OperandParser::read(const NumberKind& kind, const OperandInfo& info, Tokens
   const uint8_t prefix = takePrefix(tokens);
   if (prefix != 0 && (kind.prefixes & prefix) == 0) {
     wrongPrefix(prefix, out);
-    // STO CNST.5 is a store to a constant, too: without the prefix it would stay wrong.
+    // STO CNST.5 also stores to a constant: it would stay wrong without the prefix.
     return prefix == kCnst && info.access != Access::Read && wrongKind(out, "a constant", "a variable");
   }
   if (prefix == 0 && misspeltPrefix(tokens)) return false;
@@ -238,7 +238,7 @@ bool OperandParser::constant(const NumberKind& kind, const OperandInfo& info, co
   out.form = Operand::Form::Integer;
   out.prefixed = prefix != 0 && prefix != kCnst;
   out.type = prefix == 0 ? ir::Type::I32 : prefixOf(prefix).type;
-  // A sign before digits is theirs; before a type or a name the loaded value is negated (man. l.703).
+  // A sign before digits belongs to the number; before a type or a name it negates the loaded value (man. l.703).
   const bool digits = out.negated && out.tokens[1].kind == TokenKind::Number;
   out.value = digits ? -address.byte : address.byte;
   out.negated = out.negated && !digits;
@@ -256,7 +256,7 @@ bool OperandParser::cell(const NumberKind& kind, const OperandInfo& info, const 
   out.form = Operand::Form::Cell;
   out.prefixed = prefix != 0;
   out.type = prefix != 0 ? prefixOf(prefix).type : address.type;
-  // Where only a real is possible, 8 bytes are one.
+  // If only a REAL is possible, 8 bytes are one.
   const bool real = (kind.prefixes & ~kCnst) == kReal && address.end - address.byte >= 8;
   if (out.type == ir::Type::None && real && !address.isText) out.type = ir::Type::F64;
   if (out.type == ir::Type::None) {
@@ -320,7 +320,7 @@ bool OperandParser::wrongPrefix(uint8_t prefix, const Operand& operand) {
   return false;
 }
 
-// A word of the kind that is not a number's name in the program.
+// Takes a word of the kind, unless the program uses it as the name of a number.
 bool OperandParser::ownWord(const NumberKind& kind, std::span<const Token> tokens, Operand& out) {
   if (kind.words.list.empty() || !isOne(TokenKind::Name, tokens)) return false;
   const uint32_t found = symbols_.find(tokens[0].text, file_);
@@ -344,7 +344,7 @@ bool OperandParser::read(const MemberKind& kind, const OperandInfo& info, Tokens
   return true;
 }
 
-// Names that are none of a kind's own words are known and of another kind, or unknown.
+// Reports a name that is not a word of the kind: it is either unknown or a symbol of another kind.
 bool OperandParser::noWord(std::string_view words, const OperandInfo& info, std::span<const Token> tokens,
                            const Operand& out) {
   const std::string wanted(info.kind->name);
@@ -359,7 +359,7 @@ bool OperandParser::noWord(std::string_view words, const OperandInfo& info, std:
 
 namespace {
 
-// TEXT+BX, TEXT+2+BX: the tokens without `+BX`, in `plain`. False when there is none.
+// For TEXT+BX or TEXT+2+BX: stores the tokens without `+BX` in `plain`. False if there is no index.
 bool withoutIndex(std::span<const Token> tokens, std::vector<Token>& plain) {
   const auto isBx = [&](size_t i) {
     return i + 1 < tokens.size() && tokens[i].is('+') && text::equalsIgnoringCase(tokens[i + 1].text, "BX") &&
@@ -404,14 +404,14 @@ bool OperandParser::read(const MemoryKind& kind, const OperandInfo& info, Tokens
   out.form = Operand::Form::Cell;
   out.isText = address.isText;
   if (kind.prefixes != 0 && !out.prefixed && !address.isText) out.type = address.type;
-  const uint32_t least = kind.pastEnd && !address.indexed ? 0 : 1; // an end is after its memory
+  const uint32_t least = kind.pastEnd && !address.indexed ? 0 : 1; // an end address may be one past its memory
   const uint32_t bytes = out.type == ir::Type::None ? least : ir::byteWidth(out.type);
   return setPlace(address, address.byte, bytes, out) && checkWrite(info, address.protection, address.name, out.range);
 }
 
-// Operands that name variables of MAP_* and DEF_*, and bits for their numbers.
+// Operands that are variables of MAP_* and DEF_*, or bits that stand for their bit number.
 
-// NAME or NAME[n]
+// Whether the operand is NAME or NAME[n].
 bool OperandParser::isVariable(const OperandInfo& info, bool mayBeIndexed, std::span<const Token> tokens,
                                const Operand& out) {
   const TokenKind kind = tokens[0].kind;
@@ -435,7 +435,7 @@ bool OperandParser::read(const NewVariableKind& kind, const OperandInfo& info, T
   const Symbol* symbol = isVariable(info, kind.array, tokens, out) ? usable(require(tokens[0])) : nullptr;
   if (symbol == nullptr || symbol->exchanged == kNone) return false;
   const uint32_t declaredBy = declarations_.exchanged[symbol->exchanged].statement;
-  // Else the name is another symbol's, which has been reported.
+  // Otherwise the name belongs to another symbol, which has been reported.
   return &program_.statements[declaredBy] == statement_ && exchanged(*symbol, out);
 }
 

@@ -1,4 +1,4 @@
-// The checks of rows, by family.
+// The checks of instruction rows, by family.
 #include "frontend/dialects/technol/check/rules.h"
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 
 namespace rung::frontend::technol {
 
-// Checks of messages, inputs and outputs, sharing and configuration (man. ch. 10, 14, 16, 18, 27).
+// Checks of messages, inputs and outputs, shared variables and configuration (man. ch. 10, 14, 16, 18, 27).
 
 using nc::ExchangeType;
 using Form = Operand::Form;
@@ -29,7 +29,7 @@ bool inRange(const CheckContext& c, const Operand& given, int64_t least, int64_t
   return false;
 }
 
-// An identifier that is written has 1 to kDefineBytes characters; one that is `defined` ends without an index (man.
+// A literal identifier has 1 to kDefineBytes characters; one that is `defined` must not end with an index (man.
 // l.12690).
 bool identifierFits(const CheckContext& c, const Operand& id, bool defined) {
   if (id.form != Form::Text) return textFits(c, id);
@@ -46,8 +46,8 @@ bool identifierFits(const CheckContext& c, const Operand& id, bool defined) {
   return false;
 }
 
-// Whether the default is a constant of the variable's type. The default of a mapped real has its decimal point (man.
-// l.5880).
+// Whether the default is a constant of the variable's type. The default of a mapped real must have a decimal point
+// (man. l.5880).
 bool defaultFits(const CheckContext& c, const Exchanged& variable, const Operand& given) {
   if (variable.type == ExchangeType::Text)
     return given.form == Form::Text || c.wrongKind(given, "not a text", "a text");
@@ -77,7 +77,7 @@ bool limitsFit(const CheckContext& c, ExchangeType type, std::span<const Operand
   return !text || !least.given() || inRange(c, least, 1, o[0].size());
 }
 
-// Of EDEF: 00 never, 01 a rising edge, 10 a falling one.
+// Codes of EDEF: 00 never, 01 a rising edge, 10 a falling edge.
 bool isEdge(int64_t code) { return code <= 2; }
 
 } // namespace
@@ -132,7 +132,7 @@ void checkArithmetic(const CheckContext& c, std::span<const Operand> o, int) {
   c.mixing.note(o[0].isReal() ? DrUse::Real : DrUse::Integer, c.statement);
 }
 
-// An instruction whose integers do not matter.
+// For an instruction whose use of integers need not be tracked.
 void checkRealUse(const CheckContext& c, std::span<const Operand> o, int) {
   if (o[0].isReal()) c.mixing.note(DrUse::Real, c.statement);
 }
@@ -149,7 +149,7 @@ void checkMove(const CheckContext& c, std::span<const Operand> o, int) {
       << c.statement.row->info.mnemonic << describe(o[0].type) << describe(o[1].type);
 }
 
-// Checks of where control goes, and of what depends on where a statement is.
+// Checks of jump targets, and of instructions whose position matters.
 
 namespace {
 
@@ -163,7 +163,7 @@ std::string describeUnit(const Unit& unit) {
   return {};
 }
 
-// Jumps stay inside their unit; the end label of a timed block counts as inside it.
+// Checks that a jump stays inside its unit; the end label of a timed block counts as inside.
 void checkTarget(const CheckContext& c, const Operand& operand) {
   const SourceProgram& program = c.program;
   const Label& label = program.labels[operand.index];
@@ -185,7 +185,7 @@ void checkEmptyStack(const CheckContext& c, std::span<const Operand>, int) {
   c.equation.checkBalance(c.statement.range(), "CHECK");
 }
 
-// A mechanism inside a timed block is in that block, too.
+// A mechanism inside a timed block counts as part of the block.
 void checkTimer(const CheckContext& c, std::span<const Operand>, int) {
   UnitId unit = c.statement.unit;
   while (unit.valid() && c.program.at(unit).kind == UnitKind::Mechanism) unit = c.program.at(unit).parent;
@@ -197,16 +197,16 @@ void checkCall(const CheckContext& c, std::span<const Operand> o, int) {
   c.calls.add(c.program.procedureOf(c.statement.unit), o[0].index, o[0].range);
 }
 
-// Checks of instructions that give data to devices or get them (inventory of the services, 1.4, 3).
+// Checks of instructions that exchange data with devices (inventory of the services, 1.4, 3).
 
 namespace {
 
 constexpr uint32_t kIntegerBytes = 4, kRealBytes = 8, kPacketBytes = 12, kRecordBytes = 2;
 
-// Bytes that an operand has: its type's, or those up to the end of its variable.
+// Number of bytes of an operand: the width of its type, or those up to the end of its variable.
 uint32_t bytesOf(const Operand& operand) { return operand.prefixed ? ir::byteWidth(operand.type) : operand.size(); }
 
-// An index shows when the program runs.
+// Reports an operand that has fewer than `bytes` bytes. An indexed operand is checked at run time.
 void holds(const CheckContext& c, const Operand& operand, int64_t bytes) {
   if (operand.indexed || operand.form != Operand::Form::Cell || bytes <= bytesOf(operand)) return;
   c.report(diag::AddressOutOfRange, operand.range)
@@ -245,7 +245,7 @@ void checkData(const CheckContext& c, const Operand& operand, DataForm form, int
 
 } // namespace
 
-// The bytes that a constant asks for; of a cell it shows when the program runs.
+// Checks a constant byte count; one in a cell is checked at run time.
 void checkService(const CheckContext& c, std::span<const Operand> o, int form) {
   const std::span<const OperandInfo> infos = c.statement.row->info.operands.all();
   const Operand* length = lengthIn(infos, o);
@@ -254,16 +254,16 @@ void checkService(const CheckContext& c, std::span<const Operand> o, int form) {
     if (o[i].given() && isMemory(infos[i])) checkData(c, o[i], static_cast<DataForm>(form), count);
 }
 
-// pmsg, the last operand, has 12 bytes (man. l.9497).
+// The last operand, pmsg, must have 12 bytes (man. l.9497).
 void checkPacket(const CheckContext& c, std::span<const Operand> o, int) { holds(c, o.back(), kPacketBytes); }
 
-// The first operand is a record of two bytes, the second of which may be another variable (man. l.12061).
+// The first operand is a record of two bytes; the second byte may belong to another variable (man. l.12061).
 void checkRecord(const CheckContext& c, std::span<const Operand> o, int) {
   if (o[0].indexed || o[0].place.byte + kRecordBytes <= c.declarations.bytesOf(o[0].place.space)) return;
   c.report(diag::AddressOutOfRange, o[0].range) << spell(o[0]) + "+1" << "the memory";
 }
 
-// ECATCMD_MASTER_STATE and ECATCMD_SLAVE_STATE give a state (man. l.18231).
+// ECATCMD_MASTER_STATE and ECATCMD_SLAVE_STATE return a state (man. l.18231).
 void checkEtherCatCommand(const CheckContext& c, std::span<const Operand> o, int form) {
   constexpr int64_t kCommands[] = {1, 2, 3, 4, 8, 11, 12, 13, 14, 18, 20, 21}; // man. l.18210-18246
   const bool isNumber = o[2].form == Operand::Form::Integer;
@@ -278,7 +278,7 @@ void checkEtherCatCommand(const CheckContext& c, std::span<const Operand> o, int
   checkService(c, o, form);
 }
 
-// Not what the control itself keeps in a unit: packets and pointers (inventory of the services, 9).
+// Rejects items that the control keeps in a unit for itself: packets and pointers (inventory of the services, 9).
 void checkUnitItem(const CheckContext& c, std::span<const Operand> o, int) {
   const std::string item = spell(o[3]);
   const nc::Signal* member = nc::findSignal(nc::technolSignals(), "INOUTS." + item, "INOUTS");
@@ -286,14 +286,14 @@ void checkUnitItem(const CheckContext& c, std::span<const Operand> o, int) {
   c.wrongKind(o[3], "a structure or an address", "a byte, word or dword of INOUTS");
 }
 
-// Checks of memory and texts (man. ch. 3.15, 3.18): what lies outside its variable or its memory.
+// Checks of memory and texts (man. ch. 3.15, 3.18): accesses outside the variable or its memory.
 
 namespace {
 
 constexpr uint32_t kLongestText = 0xFFFF;
 
-// The bytes from an address on that are in its memory, of `count`. An error where the rest would be written; read, it
-// is 0 (an example of the manual reads beyond its variable, l.13543).
+// The number of bytes, at most `count`, from an address to the end of its memory. A write beyond it is an error; a read
+// beyond it gives 0 (an example of the manual reads beyond its variable, l.13543).
 uint32_t inside(const CheckContext& c, const Operand& operand, uint32_t count, bool written) {
   const uint32_t exist = c.declarations.bytesOf(operand.place.space) - operand.place.byte;
   if (operand.indexed || count <= exist) return count;

@@ -109,7 +109,7 @@ std::string_view onlyName(std::span<const Token> operand) {
 
 } // namespace
 
-// What is wrong with the operands is reported when the statement is lowered; the name is known all the same.
+// Declares the variable even if other operands are wrong; those are reported when the statement is checked.
 void DeclarationReader::exchanged(const Statement& statement, uint32_t index) {
   using nc::ExchangeKind;
   using nc::ExchangeType;
@@ -168,9 +168,9 @@ class Placer {
 public:
   explicit Placer(ReadContext& context) : c_(context), program_(context.program) {}
   void place(DataItem& item);
-  // A variable of MAP_* or DEF_*.
+  // Places a variable of MAP_* or DEF_*.
   void place(Exchanged& variable);
-  // Texts that lie on other memory: last.
+  // Places texts that overlay other memory; called last.
   void placeOverlays();
 
 private:
@@ -185,7 +185,7 @@ private:
 
   ReadContext& c_;
   const SourceProgram& program_;
-  std::vector<uint32_t> overlays_; // items
+  std::vector<uint32_t> overlays_; // indices of items
   bool full_ = false;
 };
 
@@ -232,8 +232,8 @@ void Placer::placeArray(DataItem& item, const Statement& statement) {
   cell.type = bytes == 8 ? ir::Type::None : ir::intOfBytes(cell.size);
 }
 
-// STR n, var+xy: the text lies on that memory and reserves nothing. A variable of the program is in the same file
-// (man. l.1695). Done when everything else has its place.
+// STR n, var+xy: the text overlays existing memory and reserves none. A variable of the program must be in the same
+// file (man. l.1695). Called after everything else has been placed.
 bool Placer::overlay(Symbol& text, std::span<const Token> tokens, const Statement& statement) {
   const uint32_t index = c_.symbols.require(tokens[0], statement.file);
   if (index == kNone) return false;
@@ -255,7 +255,7 @@ bool Placer::overlay(Symbol& text, std::span<const Token> tokens, const Statemen
                  .value(std::span<const Token>(terms).subspan(plus), statement.range());
   }
   if (!offset) return false;
-  // In the interface a text stays on its cell, in the program's data anywhere.
+  // In the interface a text must stay inside its cell; in the program's data it may be anywhere.
   const int64_t first = base.predeclared ? base.byte : 0;
   const int64_t end = base.predeclared ? int64_t{base.byte} + base.size : int64_t{c_.declarations.dataBytes};
   if (*offset < first - base.byte || *offset > end - base.byte - text.size) {
@@ -321,7 +321,7 @@ void Placer::place(DataItem& item) {
   }
 }
 
-// NAME or NAME[n]
+// The operand is NAME or NAME[n].
 void Placer::place(Exchanged& variable) {
   const Statement statement = program_.statements[variable.statement];
   const std::span<const Token> name = splitOperands(program_.operandTokens(statement))[0];
@@ -353,7 +353,7 @@ void Placer::placeOverlays() {
     const DataItem& item = c_.declarations.items[index];
     const Statement statement = program_.statements[item.statement];
     const auto operands = splitOperands(program_.operandTokens(statement));
-    Symbol text = c_.symbols[item.cell]; // finding the base may add symbols
+    Symbol text = c_.symbols[item.cell]; // a copy: looking up the base may add symbols
     text.broken = !overlay(text, operands[1], statement) || text.broken;
     c_.symbols.edit(item.cell) = text;
   }

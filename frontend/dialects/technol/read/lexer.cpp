@@ -42,21 +42,21 @@ size_t numberEnd(std::string_view text, size_t first) {
       while (i < text.size() && text::isDigit(text[i])) ++i;
     }
   }
-  // 1.5X and 1.2.3 are one bad number each.
+  // 1.5X and 1.2.3 are each one bad number.
   while (i < text.size() &&
          (isNameChar(text[i]) || (text[i] == '.' && i + 1 < text.size() && text::isDigit(text[i + 1]))))
     ++i;
   return i;
 }
 
-// A run of characters that are neither blank nor punctuation nor begin a text or a comment.
+// End of a run of characters that are not blank or punctuation and do not begin a text or a comment.
 size_t wordEnd(std::string_view text, size_t first) {
   size_t i = first;
   while (i < text.size() && !isBlank(text[i]) && !isPunct(text[i]) && text[i] != ';' && text[i] != '\'') ++i;
   return i;
 }
 
-// How a number of another language is written here; false where the word is none.
+// Explains how a number of another language is written here; false if the word is not one.
 bool noteNumber(std::string_view word, SourceRange range, DiagBuilder& report) {
   const std::optional<ForeignNumber> number = foreignNumber(word);
   if (!number) return false;
@@ -67,7 +67,7 @@ bool noteNumber(std::string_view word, SourceRange range, DiagBuilder& report) {
   return true;
 }
 
-// A comment, a number, an address or a negation of another language, a letter of another alphabet.
+// Explains a comment, a number, an address or a negation of another language, or a letter of another alphabet.
 void noteForeign(const SourceLine& line, size_t first, size_t last, DiagBuilder& report) {
   const std::string_view word = line.text.substr(first, last - first);
   const bool isNegated = word.size() > 1 && (word[0] == '/' || word[0] == '!' || word[0] == '~') && isNameChar(word[1]);
@@ -90,7 +90,7 @@ void noteForeign(const SourceLine& line, size_t first, size_t last, DiagBuilder&
 }
 
 void reportWord(const SourceLine& line, size_t first, size_t last, Diagnostics& diagnostics) {
-  if (line.text.substr(first).starts_with("#$")) // a number of another language; a `$` ends other words
+  if (line.text.substr(first).starts_with("#$")) // a number of another language; other words end at a `$`
     for (last = first + 2; last < line.text.size() && isNameChar(line.text[last]);) ++last;
   const std::string_view word = line.text.substr(first, last - first);
   for (char c : word)
@@ -168,7 +168,7 @@ std::optional<Number> parseRadix(std::string_view digits, int radix) {
 
 } // namespace
 
-// Digits alone, but too many.
+// Whether the text is a number of valid digits that exceeds 64 bits.
 static bool isTooLarge(std::string_view text) {
   const char last = text.empty() ? ' ' : text::upper(text.back());
   const int base = last == 'H' ? 16 : last == 'B' ? 2 : 10;
@@ -210,7 +210,7 @@ bool reportForeignNumber(std::span<const Token> tokens, Diagnostics& diagnostics
   return true;
 }
 
-// Encodings of sources.
+// Encodings of source files.
 
 std::optional<FileId> readable(SourceManager& sources, FileId file, Diagnostics& diagnostics) {
   const std::string_view text = sources.text(file);

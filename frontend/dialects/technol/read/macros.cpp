@@ -15,7 +15,7 @@ struct FlagName {
   bool isStack;
   MacroStack stack;
 };
-// C_x and D_x concern the control's own compiler and its debugger.
+// C_x and D_x only affect the control's own compiler and its debugger.
 constexpr FlagName kFlags[] = {
     {"T_NORMAL", true, MacroStack::Normal},
     {"T_BEGIN", true, MacroStack::Begin},
@@ -50,8 +50,7 @@ bool MacroSet::flags(std::span<const Token> tokens, MacroStack& stack) {
 }
 
 void MacroSet::declare(const Token& name, uint32_t macro) {
-  // A macro may have the name of an instruction: at its uses CONTROL_T_MACRO says which of them is meant (man.
-  // l.20572).
+  // A macro may have the name of an instruction: CONTROL_T_MACRO decides which of them a use means (man. l.20572).
   if (findRow(name.text) == nullptr) c_.symbols.declare(namedSymbol(name, SymbolKind::Macro, file_, true));
   names_.emplace(symbolKey(name.text), macro);
 }
@@ -137,7 +136,7 @@ const Macro* MacroSet::find(std::string_view name) const {
   return found == names_.end() ? nullptr : &macros_[found->second];
 }
 
-// A name of T_LOCAL is another one in each use: NAME#3 in the third.
+// Adds a token; a T_LOCAL name gets a suffix that is unique per use: NAME#3 in the third use.
 void MacroSet::localName(const Macro& macro, Token token, Macro::Line& out) {
   if (token.kind == TokenKind::Name && contains(macro.locals, token.text)) {
     token.written = static_cast<uint32_t>(token.text.size());
@@ -147,7 +146,7 @@ void MacroSet::localName(const Macro& macro, Token token, Macro::Line& out) {
   out.tokens.push_back(token);
 }
 
-// Operands that begin with TMAC. have their formals replaced, all others are names as they are (man. l.20410-20431).
+// Replaces formals in operands that begin with TMAC.; all other operands stay as they are (man. l.20410-20431).
 void MacroSet::substitute(const Macro& macro, const Macro::Line& line,
                           const std::vector<std::span<const Token>>& actuals, Macro::Line& out) {
   bool inTmac = false;

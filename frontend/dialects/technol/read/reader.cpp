@@ -1,4 +1,4 @@
-// Reads files into statements (see reader.h).
+// Reads files as statements (see reader.h).
 #include "frontend/dialects/technol/read/reader.h"
 
 #include "frontend/dialects/technol/read/file_reader.h"
@@ -22,7 +22,7 @@ std::string describe(std::span<const Token> tokens) {
   return "'" + std::string(tokens[0].text) + "'";
 }
 
-// A command of another language that the first tokens of a statement are: LD, AND NOT, RD.NOT.STK; ST -X.
+// A command of another language at the beginning of a statement, such as LD, AND NOT, RD.NOT.STK or ST -X.
 struct ForeignCommand {
   const ForeignWord* word = nullptr;
   size_t tokens = 1;
@@ -35,7 +35,7 @@ ForeignCommand foreignCommand(std::span<const Token> tokens) {
   return {};
 }
 
-// Operands that are not written as those of this language.
+// Whether an operand is negated: -X or NOT X.
 bool areNegated(std::span<const Token> operands) {
   const auto isNegated = [](std::span<const Token> operand) {
     return !operand.empty() && (operand[0].is('-') || text::equalsIgnoringCase(operand[0].text, "NOT"));
@@ -43,14 +43,14 @@ bool areNegated(std::span<const Token> operands) {
   return std::ranges::any_of(splitOperands(operands), isNegated);
 }
 
-// Whether an instruction takes as many operands as there are; of a macro, which has no row, it is not asked.
+// Whether the instruction takes this number of operands. True for a macro, which has no row.
 bool takesAsMany(const Row* row, std::span<const Token> operands) {
   Diagnostics discarded;
   return row == nullptr || countFits(row->info, splitOperands(operands).size(), {}, discarded);
 }
 
-// NAME INSTRUCTION …, or NAME alone, which is not like a word that opens, closes or declares something: a label without
-// its colon.
+// Notes that a label may lack its colon: NAME INSTRUCTION …, or NAME alone, unless it resembles a word that opens,
+// closes or declares something.
 void noteLabel(std::span<const Token> tokens, std::string_view similar, DiagBuilder& report) {
   const Row* like = findRow(similar);
   const bool alone = tokens.size() == 1 && (like == nullptr || like->role == Role::Code);
@@ -61,10 +61,10 @@ void noteLabel(std::span<const Token> tokens, std::string_view similar, DiagBuil
 
 } // namespace
 
-// `A-B:` is a label that is not a name; a colon has no other meaning.
+// Reports `A-B:`, a label that is not a valid name; a colon has no other meaning. True if it was reported.
 bool FileReader::splitLabel(uint32_t& first, uint32_t& count) {
   const std::span<const Token> tokens = std::span<const Token>(program_.tokens).subspan(first, count);
-  if (count > 2 && tokens[2].is(':') && takeSign(tokens, c_.diagnostics)) { // the name is that without it
+  if (count > 2 && tokens[2].is(':') && takeSign(tokens, c_.diagnostics)) { // the label is the name without its sign
     ++first, --count;
     return false;
   }
@@ -78,7 +78,7 @@ bool FileReader::splitLabel(uint32_t& first, uint32_t& count) {
   return true;
 }
 
-// Takes `name :` off the front; the token of the name, or kNone.
+// Takes `name :` off the front; returns the token of the name, or kNone.
 uint32_t FileReader::readLabel(uint32_t& first, uint32_t& count) {
   if (splitLabel(first, count)) return kNone;
   if (count < 2 || !program_.tokens[first + 1].is(':')) return kNone;
@@ -95,7 +95,7 @@ uint32_t FileReader::readLabel(uint32_t& first, uint32_t& count) {
   return label;
 }
 
-// `V NAME <1,2>` or `V: NAME <1,2>` where NAME is a structure.
+// Reads `V NAME <1,2>` or `V: NAME <1,2>` if NAME is a structure; otherwise false.
 bool FileReader::instance(uint32_t first, uint32_t count, uint32_t line) {
   const std::span<const Token> tokens = std::span<const Token>(program_.tokens).subspan(first, count);
   const bool named = count > 1 && tokens[0].kind == TokenKind::Name &&
@@ -121,10 +121,10 @@ bool FileReader::instance(uint32_t first, uint32_t count, uint32_t line) {
   return true;
 }
 
-// An instruction of another language, with what is written for it here. False when it is none of those that are known.
+// Reports an instruction of another language and explains its equivalent. False if it is not a known one.
 bool FileReader::foreign(std::span<const Token> tokens) {
   const ForeignCommand found = foreignCommand(tokens);
-  const bool hasSign = found.tokens == 2 && tokens[1].is('-'); // the operand's
+  const bool hasSign = found.tokens == 2 && tokens[1].is('-'); // belongs to the operand
   const std::span<const Token> command = tokens.first(found.tokens - (hasSign ? 1 : 0));
   const std::span<const Token> operands = tokens.subspan(command.size());
   const bool assembler = found.tokens == 1 && isAssembler(tokens[0].text);
@@ -141,8 +141,8 @@ bool FileReader::foreign(std::span<const Token> tokens) {
   return true;
 }
 
-// With what was meant. Two words may be one name whose `_` is lost. The row of a
-// statement that opens, closes or declares something is taken where that fits, so that what follows is understood.
+// Reports an unknown instruction with a suggestion; two words may be one name that lost its `_`. Returns the row of the
+// suggestion if it opens, closes or declares something and fits here, so that the following statements are understood.
 const Row* FileReader::unknown(uint32_t& first, uint32_t& count) {
   const std::span<const Token> tokens = std::span<const Token>(program_.tokens).subspan(first, count);
   const Token& token = tokens[0];
@@ -181,7 +181,8 @@ const Row* FileReader::instruction(uint32_t& first, uint32_t& count) {
   return row;
 }
 
-// No macro reaches over the border of a module or another macro's beginning.
+// Whether the statement ends an open macro definition: a macro cannot extend beyond a module or the start of another
+// macro.
 bool FileReader::endsMacros(const Token& head) {
   const Row* row = head.kind == TokenKind::Name ? findRow(head.text) : nullptr;
   if (row == nullptr) return false;
@@ -242,8 +243,8 @@ void FileReader::statement(const Row* row, uint32_t first, uint32_t count, uint3
   program_.statements.push_back(made);
 }
 
-// Labels in lines of their own belong to the next declaration, too (man. l.27-29); the last one is its name already.
-// Between instructions they are labels of code.
+// Labels on lines of their own also name the next declaration (man. l.27-29); the last one is already its name. Between
+// instructions they are labels of code.
 void FileReader::takeDataLabels() {
   if (!structure_.inData() && !structure_.localOpen()) {
     if (!pendingLabels_.empty()) pendingLabels_.pop_back();
@@ -256,7 +257,7 @@ void FileReader::takeDataLabels() {
   pendingLabels_.clear();
 }
 
-// Inside macros a DFM names all eight bits (man. l.20454).
+// Inside macros a DFM must name all eight bits (man. l.20454).
 void FileReader::checkEightBits(const Statement& statement) {
   const auto operands = splitOperands(program_.operandTokens(statement));
   const bool all =
@@ -264,7 +265,7 @@ void FileReader::checkEightBits(const Statement& statement) {
   if (!all) c_.report(diag::DfmNeedsEight, statement.range());
 }
 
-// Labels are this file's alone; they belong to the unit that is open here.
+// Declares the pending labels. They are local to the file and belong to the open unit.
 void FileReader::attachLabels(Statement& statement, uint32_t index) {
   pendingLabels_.insert(pendingLabels_.begin(), codeLabels_.begin(), codeLabels_.end());
   codeLabels_.clear();
@@ -304,7 +305,7 @@ void FileReader::declareUnit(const Token& name, SymbolKind kind, uint32_t index)
   }
   const size_t errors = c_.diagnostics.errorCount();
   c_.symbols.declare(symbol);
-  // Of a longer name nothing is left that distinguishes it from the mechanism.
+  // The suffix of a longer name would be cut off, so it could not be distinguished from the mechanism.
   if (kind != SymbolKind::Mechanism || name.text.size() >= kSignificant) return;
   if (c_.diagnostics.errorCount() > errors) return;
   // name_LINE, a WORD (man. l.2210)
@@ -318,7 +319,7 @@ void FileReader::declareUnit(const Token& name, SymbolKind kind, uint32_t index)
   c_.symbols.declare(symbol);
 }
 
-// What has no operands at all, and no check that would count them.
+// Checks that statements without operands have none; those with a check of their own are excluded.
 void FileReader::checkNoOperands(const Statement& statement) {
   const Role role = statement.row->role;
   if (role == Role::Code || role == Role::MacroBegin || role == Role::MacroEnd) return;
@@ -328,7 +329,7 @@ void FileReader::checkNoOperands(const Statement& statement) {
             c_.diagnostics);
 }
 
-// DEBUG [ON|OFF]
+// Checks DEBUG [ON|OFF].
 void FileReader::checkSwitch(const Statement& statement) {
   if (statement.tokenCount == 0 || statement.row->info.operands.all().empty()) return;
   const std::span<const Token> tokens = program_.operandTokens(statement);
@@ -368,7 +369,8 @@ void FileReader::structural(Statement& statement, uint32_t index) {
   }
 }
 
-// Some instructions are for MODULE_INIT and procedures, which it may call (man. l.5222).
+// Whether the instruction is allowed here: some are restricted to MODULE_INIT and to procedures that it may call (man.
+// l.5222).
 bool FileReader::mayStandThere(const Statement& statement) const {
   const UnitId owner = program_.owner(statement.unit);
   if ((statement.row->effects & kInitOnly) == 0 || !owner.valid()) return true;
@@ -417,7 +419,7 @@ void FileReader::code(Statement& statement, uint32_t index) {
     structure_.beginTimed(statement, *name);
   }
   if (!ok) statement.row = nullptr;
-  // What opens or closes a unit knows it: the unit of the statement is the one it is about.
+  // A statement that opens a unit belongs to that unit.
   if (role == Role::MechBegin || role == Role::ProcBegin || role == Role::Timed) statement.unit = structure_.unit();
 }
 
@@ -430,7 +432,7 @@ void FileReader::checkWait(const Statement& statement) {
     program_.mechanisms[program_.at(program_.owner(statement.unit)).index].hasTimers = true;
 }
 
-// A loop back without anything that waits or may leave it would run for ever (man. l.2207).
+// Warns of a backward jump past nothing that waits or may leave the loop: it would never end (man. l.2207).
 void FileReader::checkLoop(const Statement& statement) {
   if (statement.row->info.mnemonic != "JUM" || !program_.inMechanism(statement.unit) || statement.tokenCount != 1)
     return;

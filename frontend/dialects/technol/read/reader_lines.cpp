@@ -1,4 +1,4 @@
-// The lines of a file, what it includes, and its macros (see file_reader.h).
+// Reads the lines of a file, its includes, and its macros (see file_reader.h).
 #include <algorithm>
 #include <array>
 
@@ -13,18 +13,18 @@
 namespace rung::frontend::technol {
 namespace {
 
-constexpr size_t kMaxStatement = 4096;      // tokens that commas may join
-constexpr uint32_t kMaxIncludes = 32;       // one inside the other
-constexpr uint32_t kMaxExpansion = 32;      // macros one inside the other
-constexpr uint32_t kMostIncludes = 5'000;   // of a program
-constexpr uint32_t kMostExpanded = 200'000; // lines of macros in a program
+constexpr size_t kMaxStatement = 4096;      // tokens of a statement continued by commas
+constexpr uint32_t kMaxIncludes = 32;       // nesting depth
+constexpr uint32_t kMaxExpansion = 32;      // nesting depth of macros
+constexpr uint32_t kMostIncludes = 5'000;   // per program
+constexpr uint32_t kMostExpanded = 200'000; // lines from macros, per program
 
 std::string folderOf(std::string_view path) {
   const size_t slash = path.rfind('/');
   return slash == std::string_view::npos ? std::string() : std::string(path.substr(0, slash + 1));
 }
 
-// Around the statements of a macro that has its own effect on the stack.
+// Row of the pseudo statements around a macro that has its own effect on the stack.
 const Row* markRow(Role role, MacroStack stack) {
   constexpr size_t kStacks = 5;
   static constexpr auto kMarks = [] {
@@ -54,13 +54,13 @@ void FileReader::read() {
   structure_.finish(static_cast<uint32_t>(program_.statements.size()));
 }
 
-// The lines of the file itself (`depth` 0) or of one that it includes.
+// Reads the lines of the file itself (`depth` 0) or of an included file.
 void FileReader::readLines(FileId id, uint32_t depth) {
   LineReader lines(c_.sources, id);
   SourceLine line;
   uint32_t first = 0, lineNumber = 0;
-  if (depth == 0) program_.files[file_].lastLine = program_.sources.range(id, 0, 0); // of an empty file
-  bool open = false, clean = true; // a statement that a comma continues
+  if (depth == 0) program_.files[file_].lastLine = program_.sources.range(id, 0, 0); // for an empty file
+  bool open = false, clean = true; // open: a comma continues the statement; clean: no errors in it
   while (lines.next(line)) {
     includeDepth_ = depth;
     if (depth == 0) {
@@ -86,8 +86,8 @@ void FileReader::readLines(FileId id, uint32_t depth) {
     }
     const auto before = static_cast<uint32_t>(program_.tokens.size());
     clean = tokenize(line, program_.tokens, c_.diagnostics) && clean;
-    if (open && clean && program_.tokens.size() == before) continue; // a blank line or a comment inside
-    if (open && clean && beginsStatement(before)) {                  // the comma was one too many
+    if (open && clean && program_.tokens.size() == before) continue; // a blank line or comment inside the statement
+    if (open && clean && beginsStatement(before)) {                  // the comma was superfluous
       logicalLine(first, before - first, lineNumber);
       first = before;
       lineNumber = line.number;
@@ -101,8 +101,8 @@ void FileReader::readLines(FileId id, uint32_t depth) {
   if (open) logicalLine(first, static_cast<uint32_t>(program_.tokens.size()) - first, lineNumber);
 }
 
-// Whether the tokens from `first` cannot be operands of the statement above: a label, a structure, the use of a macro,
-// or a word that names no symbol.
+// Whether the tokens from `first` cannot be operands of the statement above: a label, a structure, a use of a macro, or
+// a reserved word.
 bool FileReader::beginsStatement(uint32_t first) const {
   const std::span<const Token> tokens = std::span(program_.tokens).subspan(first);
   if (tokens[0].kind != TokenKind::Name) return false;
@@ -119,13 +119,13 @@ namespace {
 
 constexpr std::string_view kInclude = "T_INCLUDE";
 
-// `text` begins with this word.
+// Whether `text` begins with this word.
 bool startsWith(std::string_view text, std::string_view word) {
   if (text.size() <= word.size() || !text::startsWithIgnoringCase(text, word)) return false;
   return text[word.size()] == ' ' || text[word.size()] == '\t';
 }
 
-// The file that `path` names when the case of its last part, `name`, does not count; "" when there is none.
+// The file named by `path`, ignoring the case of its last part, `name`; "" if there is none.
 std::string inAnyCase(const SourceManager& sources, const std::string& path, std::string_view name) {
   std::string found = path.substr(0, path.size() - name.size());
   while (!name.empty()) {
@@ -148,7 +148,7 @@ bool FileReader::isInclude(std::string_view text) {
   return start != std::string_view::npos && startsWith(text.substr(start), kInclude);
 }
 
-// T_INCLUDE path | 'name'. A path is not a sequence of tokens, so that the line is looked at as a text (man. l.20313).
+// Reads T_INCLUDE path | 'name'. A path is not a sequence of tokens, so the line is parsed as text (man. l.20313).
 bool FileReader::includes(const SourceLine& line, uint32_t depth) {
   if (!isInclude(line.text)) return false;
   std::string_view name = text::trimmed(line.text.substr(line.text.find_first_not_of(" \t") + kInclude.size()));
@@ -183,7 +183,8 @@ bool FileReader::includes(const SourceLine& line, uint32_t depth) {
   return true;
 }
 
-// What is wrong with a file is said at its first inclusion; what another one declares again is that one's mistake.
+// Reads an included file. Errors in it are reported at the first inclusion; a second inclusion is an error if it
+// declares names again.
 void FileReader::readIncluded(const IncludedFile& file, SourceRange at, uint32_t depth) {
   if (!file.again) c_.includes.emplace(file.path, readable(c_.sources, *file.id, c_.diagnostics));
   const auto text = c_.includes.at(file.path);
@@ -196,9 +197,9 @@ void FileReader::readIncluded(const IncludedFile& file, SourceRange at, uint32_t
   including_.pop_back();
 }
 
-// A name without a drive or root lies in the folder of the program, or else of the file that includes it, or else in
-// those of the project; a bare one in apostrophes in the SYSTEM folder (man. l.20319-20326). The control's files have
-// names in any case.
+// Finds an included file. A name without a drive or root is searched in the folder of the program, then in that of the
+// including file, then in those of the project; a bare name in apostrophes in the SYSTEM folder (man. l.20319-20326).
+// The control ignores the case of file names.
 FileReader::IncludedFile FileReader::findIncluded(std::string_view name, bool quoted, SourcePos at) {
   std::string path(name);
   std::replace(path.begin(), path.end(), '\\', '/');
@@ -228,7 +229,8 @@ FileReader::IncludedFile FileReader::findIncluded(std::string_view name, bool qu
   return none;
 }
 
-// Included files hold constants, data and macros; what runs is in macros (man. l.20320).
+// Whether the statement is allowed in an included file: constants, data and macros; code only inside macros (man.
+// l.20320).
 bool FileReader::allowedInInclude(const Statement& statement) {
   if (includeDepth_ == 0 || !expanding_.empty()) return true;
   switch (statement.row->role) {
@@ -247,7 +249,7 @@ bool FileReader::allowedInInclude(const Statement& statement) {
   return false;
 }
 
-// Definitions and uses of macros; false when the line is neither.
+// Handles definitions and uses of macros; false if the line is neither.
 bool FileReader::macroLine(uint32_t first, uint32_t count, uint32_t line) {
   const Token head = program_.tokens[first];
   if (head.kind != TokenKind::Name) return false;
@@ -305,7 +307,7 @@ void FileReader::useMacro(const Macro& macro, uint32_t first, uint32_t count, ui
   for (const Macro::Line& made : lines) {
     const auto at = static_cast<uint32_t>(program_.tokens.size());
     program_.tokens.insert(program_.tokens.end(), made.tokens.begin(), made.tokens.end());
-    // Statements of a macro count in the line of its use: what a mechanism shows and a debugger steps through.
+    // Statements of a macro have the line of its use: mechanisms show it, and a debugger steps through it.
     logicalLine(at, static_cast<uint32_t>(made.tokens.size()), line);
   }
   expanding_.pop_back();

@@ -20,7 +20,7 @@ bool isWord(const Token& token, std::string_view word) {
   return token.kind == TokenKind::Name && text::equalsIgnoringCase(token.text, word);
 }
 
-// Bytes of DB, DW, DD, DQ; 0 for any other word.
+// Bytes per element of DB, DW, DD, DQ; 0 for any other word.
 uint32_t bytesOf(const Token& keyword) {
   const Row* row = keyword.kind == TokenKind::Name ? findRow(keyword.text) : nullptr;
   return row && row->role == Role::MemberSize ? static_cast<uint32_t>(row->variant) : 0;
@@ -47,7 +47,7 @@ bool Structures::room(int64_t bytes, SourceRange at) {
 
 bool Structures::line(std::span<const Token> tokens) {
   if (tokens.size() >= 2 && tokens[0].kind == TokenKind::Name && tokens[1].kind == TokenKind::Name) {
-    // `DFM struc` and `LDR ends` use the words as names.
+    // `DFM struc` and `LDR ends` use these words as names.
     const Row* row = findRow(tokens[0].text);
     if (isWord(tokens[1], "STRUC") && !(row && row->role == Role::Dfm)) return begin(tokens[0], tokens[1]), true;
     if (isWord(tokens[1], "ENDS") && (row == nullptr || open_)) return end(tokens[0]), true;
@@ -62,7 +62,7 @@ bool Structures::line(std::span<const Token> tokens) {
   return syntax("a member or ends", tokens, tokens[0].range()), true;
 }
 
-// [name] DB|DW|DD|DQ|STRUCTURE value
+// Reads a member: [name] DB|DW|DD|DQ|STRUCTURE value; false if the line is not one.
 bool Structures::isMember(std::span<const Token> tokens) {
   const auto elementOf = [&](const Token& word) -> Element {
     const uint32_t bytes = bytesOf(word), structure = bytes == 0 ? find(word) : kNone;
@@ -79,7 +79,7 @@ bool Structures::isMember(std::span<const Token> tokens) {
 }
 
 void Structures::begin(const Token& name, const Token& keyword) {
-  // Outside every module they are accepted: include files hold them.
+  // They are allowed outside all modules, because include files contain them.
   if (structure_.inModule() && !structure_.inData() && !structure_.localOpen())
     c_.report(diag::DeclarationOutsideData, keyword.range()) << "struc";
   if (open_) abandon(name.range(), std::string(name.text) + " struc");
@@ -93,8 +93,8 @@ void Structures::abandon(SourceRange at, std::string_view found) {
   open_ = false;
 }
 
-// The same structure again is not an error: an include file may be read by several files. Its value shows that it is
-// the same.
+// Declaring an identical structure again is not an error: several files may read the same include file. The symbol's
+// value is a hash of the contents, which identifies identical structures.
 void Structures::end(const Token& name) {
   const bool matches = open_ && symbolKey(name.text) == symbolKey(name_.text);
   if (!matches)
@@ -154,7 +154,7 @@ bool Structures::values(Element element, std::span<const Token> tokens, SourceRa
   return ok;
 }
 
-// ? | n DUP(values) | <fields> | 'text' | constant
+// Reads one value: ? | n DUP(values) | <fields> | 'text' | constant
 bool Structures::value(Element element, std::span<const Token> tokens, SourceRange otherwise, Bytes& out) {
   if (tokens.empty()) return syntax("a value or ?", tokens, otherwise);
   for (size_t i = 0; i < tokens.size() && !tokens[i].is('(') && !tokens[i].is('<'); ++i)
@@ -196,7 +196,7 @@ bool Structures::repeated(Element element, std::span<const Token> tokens, size_t
   return true;
 }
 
-// The members in their order; one that is left out keeps the value of the declaration.
+// Reads the members in order; an omitted member keeps its declared value.
 bool Structures::fields(uint32_t structure, std::span<const Token> tokens, SourceRange otherwise, Bytes& out) {
   const StructureType& type = c_.declarations.structures[structure];
   Bytes made = type.image;

@@ -11,7 +11,7 @@ namespace {
 
 std::string endName(ModuleKind kind) { return std::string(moduleName(kind)) + "_END"; }
 
-// §12.1: what the main file must hold, and what further files must not.
+// §12.1: modules that the main file must contain, and modules that only the main file may contain.
 constexpr ModuleKind kMandatory[] = {ModuleKind::Data, ModuleKind::Input, ModuleKind::BlockInit, ModuleKind::BlockDone,
                                      ModuleKind::Main, ModuleKind::Init,  ModuleKind::Clear,     ModuleKind::Halt};
 constexpr ModuleKind kMainOnly[] = {ModuleKind::Input, ModuleKind::BlockInit, ModuleKind::BlockDone, ModuleKind::Halt,
@@ -69,7 +69,7 @@ void Structure::endModule(const Statement& statement, ModuleKind kind_, uint32_t
   }
   if (kind() != kind_) reportUnclosed(statement.range());
   closeModule(statement.range(), statement.line, index);
-  outsideReported_ = nested_; // what follows belongs to the module around it
+  outsideReported_ = nested_; // the following statements belong to the outer module
 }
 
 void Structure::closeModule(SourceRange at, uint32_t line, uint32_t index) {
@@ -83,7 +83,7 @@ void Structure::closeModule(SourceRange at, uint32_t line, uint32_t index) {
   unit_ = {};
 }
 
-// All units inside the module, innermost first; only the innermost that lacks its end is reported.
+// Closes all units inside the module, innermost first; only the innermost one is reported as unclosed.
 void Structure::closeUnits(SourceRange at) {
   bool reported = false;
   while (program_.at(unit_).kind != UnitKind::Module) {
@@ -146,7 +146,7 @@ UnitId Structure::innermost(UnitKind kind) const {
   return unit;
 }
 
-// What was left open inside ends here, too.
+// Ends a unit; units that are still open inside it end here as well.
 bool Structure::endUnit(const Statement& statement, const Token& name, UnitKind kind) {
   const bool mechanism = kind == UnitKind::Mechanism;
   const Diag mismatch = mechanism ? diag::MechNameMismatch : diag::ProcNameMismatch;
@@ -188,7 +188,7 @@ void Structure::passLabel(std::string_view name) {
     if (symbolKey(program_.tokens[program_.at(at).endLabel].text) == key) found = at;
   if (!found.valid()) return;
   while (unit_ != found) closeUnit({});
-  // Blocks inside a block are reported when it is certain that it has an end; else its missing end is the mistake.
+  // Inner blocks are reported only if their outer block has an end; otherwise the missing end is the error.
   std::erase_if(innerBlocks_, [&](const InnerBlock& inner) {
     if (inner.outer != found) return false;
     c_.report(diag::SyntaxError, inner.at).note(program_.at(found).begin, "it begins here")
@@ -262,12 +262,12 @@ void Structure::finish(uint32_t statementCount) {
   }
   closeLocal(last);
   checkMissing();
-  // A block whose label is elsewhere leads out of its unit; one without label or with an earlier one has no end.
+  // A block whose label is elsewhere leaves its unit; one without a label, or with an earlier label, has no end.
   for (const OpenBlock& block : lostBlocks_) {
     const uint32_t symbol = c_.symbols.find(block.label.text, file_);
     const bool later = symbol != kNone && c_.symbols[symbol].kind == SymbolKind::Label &&
                        block.label.pos < c_.symbols[symbol].declared.begin;
-    if (symbol != kNone && c_.symbols[symbol].kind != SymbolKind::Label) continue; // the operand's own mistake
+    if (symbol != kNone && c_.symbols[symbol].kind != SymbolKind::Label) continue; // the operand check reports it
     if (symbol == kNone)
       c_.symbols.noteUndefined(block.label, file_, {});
     else if (!later)

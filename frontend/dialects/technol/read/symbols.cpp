@@ -1,4 +1,4 @@
-// Names of a program.
+// Symbols of a program.
 #include "frontend/dialects/technol/read/symbols.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 namespace rung::frontend::technol {
 namespace {
 
-// §24 of the inventory; values of PLCEVENT_* are this project's.
+// §24 of the inventory; the values of PLCEVENT_* are defined by this project.
 constexpr Predefined kPredefined[] = {
     {"BLOCK_IDLE", 0},
     {"BLOCK_INIT", 1},
@@ -82,8 +82,8 @@ ir::Type cellType(nc::SignalType type) {
   return ir::Type::None;
 }
 
-// Cells of chapter 8 that the PLC may only read are protected (man. l.6238, l.6493, l.6517); an example writes one of
-// another chapter (l.5921), so that those only warn. Names of weights are not cells.
+// Cells of chapter 8 that the PLC may only read are protected (man. l.6238, l.6493, l.6517). An example writes a cell
+// of another chapter (l.5921), so writes to those only cause a warning. Weights are not cells.
 Protection protectionOf(const nc::Signal& signal) {
   if (signal.direction != nc::Direction::In) return Protection::None;
   return std::string_view(signal.group).starts_with("8.") ? Protection::Error : Protection::Warn;
@@ -127,7 +127,7 @@ void Symbols::checkName(const Symbol& symbol) {
   }
 }
 
-// The symbol that a name of this file would collide with; kNone when there is none.
+// The symbol that a new symbol of this file would collide with; kNone if there is none.
 uint32_t Symbols::inOwnFile(const Symbol& symbol) const {
   const uint32_t own = SymbolTable::find(symbol.name, {kFirstFile + symbol.file});
   if (own != kNone) return own;
@@ -135,7 +135,8 @@ uint32_t Symbols::inOwnFile(const Symbol& symbol) const {
   return global == kNone || !symbol.local || all()[global].file == symbol.file ? global : kNone;
 }
 
-// Whether both declarations are allowed: the same constant twice, or a mechanism and a cell of one name (man. l.12304).
+// Whether both declarations are allowed: the same constant twice, or a mechanism and a cell with the same name (man.
+// l.12304).
 bool Symbols::merge(uint32_t earlier, Symbol& symbol) {
   Symbol& first = edit(earlier);
   if (first.kind == SymbolKind::Constant && symbol.kind == SymbolKind::Constant && first.value == symbol.value)
@@ -160,7 +161,7 @@ void Symbols::checkPredeclared(const Symbol& symbol) {
   if (signal || (constant && !sameConstant)) reportDuplicate(diagnostics_, symbol.name, symbol.declared, {});
 }
 
-// Once for an inclusion, however many names the file has.
+// Reported once per inclusion, however many names the file declares.
 void Symbols::reportIncludedAgain(std::string_view name) {
   if (reportedAgain_.insert(again_.begin).second)
     diagnostics_.report(diag::DuplicateSymbol, again_).note("the file is included before this, and declares it there")
@@ -217,7 +218,7 @@ uint32_t Symbols::require(const Token& name, uint32_t file) {
   return index;
 }
 
-// A number without the 0 before its first letter.
+// Whether the word is a number that lacks the 0 before its first letter.
 static bool looksLikeNumber(std::string_view word) {
   const bool hex = word.ends_with('h') || word.ends_with('H');
   return (hex || word.find_first_of("0123456789") != std::string_view::npos) && parseNumber("0" + std::string(word));
@@ -280,7 +281,8 @@ void Symbols::reportUndefined() {
   });
 }
 
-// Another file has other names, and another structure other members; what a macro puts together no place has.
+// Whether all uses mean the same word. Other files have other names, and other structures other members; a name that a
+// macro assembled has no place in a source.
 bool Symbols::isMeantByAll(std::span<const UndefinedName> uses, std::string_view word) const {
   const UndefinedName& first = uses.front();
   return std::ranges::all_of(uses, [&](const UndefinedName& use) {
@@ -293,8 +295,8 @@ bool Symbols::isMeantByAll(std::span<const UndefinedName> uses, std::string_view
   });
 }
 
-// The visible name that is most like a misspelt one; "" when none is close. Members of the structure come first, then
-// the program's own names, then those of the control, bits of bytes among them.
+// The visible name most similar to a misspelt one; "" if none is close. Members of the structure are preferred, then
+// the program's own names, then those of the control, including bits of bytes.
 text::Likely Symbols::similar(const UndefinedName& use) const {
   if (!use.hint.meant.word.empty()) return use.hint.meant;
   if (!diagnostics_.suggests()) return {};
@@ -312,7 +314,7 @@ uint32_t Symbols::findWeight(std::string_view name, uint32_t file) {
   if (index != kNone) return index;
   const nc::Signal* signal = nc::findSignal(nc::technolSignals(), name, "W");
   if (!signal) return kNone;
-  // A weight is only a bit number; the program adds the byte itself (man. l.9359).
+  // A weight is only a bit number; the program adds it to the byte (man. l.9359).
   Symbol symbol = fromSignal(*signal);
   symbol.protection = Protection::None;
   symbol.space = {};

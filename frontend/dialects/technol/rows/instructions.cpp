@@ -1,5 +1,5 @@
-// The table (see instructions.h): the rows of all chapters in one list, and ways to find one. Mnemonics, operands and
-// lines of the manual are those of tests/unit/technol/instructions.csv.
+// The instruction table (see instructions.h): the rows of all chapters in one list, and look-up functions. Mnemonics,
+// operands and lines of the manual correspond to tests/unit/technol/instructions.csv.
 #include "frontend/dialects/technol/rows/instructions.h"
 
 #include <algorithm>
@@ -33,7 +33,7 @@ static_assert(everyRow(kRows, [](const Row& row) { return row.role != Role::Code
 constexpr std::string_view kRegisters[] = {"BX", "CX",  "AX",  "AH",  "DX", "SI",
                                            "DI", "ECX", "EDX", "RLO", "DR", "DR_REAL"};
 
-// Of the 80386 and its coprocessor; all but MOV BX,CX, CLI and STI are beyond this compiler.
+// Instructions of the 80386 and its coprocessor; all but MOV BX,CX, CLI and STI are unsupported.
 constexpr std::string_view kAssembler[] = {
     "AAA",     "AAD",     "AAM",     "AAS",     "ADC",     "ADD",     "AND",    "ARPL",   "BOUND",   "BSF",    "BSR",
     "BT",      "BTC",     "BTR",     "BTS",     "CALL",    "CBW",     "CDQ",    "CLC",    "CLD",     "CLTS",   "CMC",
@@ -84,7 +84,7 @@ const Row* findRow(std::string_view mnemonic) {
   return alias == std::end(kRows) ? nullptr : &*alias;
 }
 
-// Reserved are the words of chapters 3-5, 7 and 22; the others name symbols in examples (man. l.12300).
+// The words of chapters 3-5, 7 and 22 are reserved; the others are names in examples of the manual (man. l.12300).
 Reserved reservedWord(std::string_view name) {
   if (isOneOf(name, kRegisters)) return Reserved::Yes;
   const Row* row = findRow(name);

@@ -66,7 +66,7 @@ Length smaller(ir::RungBuilder& b, const Length& x, const Length& y) {
 
 namespace {
 
-// One pass copies or clears `type` at i * its width + `offset`, from the last one on if `backward`.
+// Copies or clears one `type` per pass at i * its width + `offset`, starting with the last one if `backward`.
 void copyPasses(ir::RungBuilder& b, const Area& to, const Area& from, uint32_t passes, Type type, uint32_t offset,
                 bool backward) {
   if (passes == 0) return;
@@ -84,7 +84,7 @@ void clearPasses(ir::RungBuilder& b, const Area& area, uint32_t passes, Type typ
   b.endLoop();
 }
 
-// Areas and count are constants: eight bytes a pass.
+// Copies a fixed number of bytes between fixed areas, eight bytes per pass.
 void copyFixed(Emitter& emitter, const Area& to, const Area& from, uint32_t count) {
   ir::RungBuilder& b = emitter.b();
   const bool backward = to.space == from.space && to.first > from.first && !emitter.isCompared();
@@ -94,7 +94,7 @@ void copyFixed(Emitter& emitter, const Area& to, const Area& from, uint32_t coun
   if (backward) copyPasses(b, to, from, chunks, Type::I64, 0, true);
 }
 
-// body(i) for each i below a count that the program knows.
+// Emits body(i) for each i below a count that is known only at run time.
 void eachBelow(ir::RungBuilder& b, const Length& count, auto body) {
   const bool blocks = count.most > 2 * kBlock;
   ValueId start;

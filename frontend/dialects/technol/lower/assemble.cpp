@@ -1,4 +1,4 @@
-// Spaces, symbols, tasks (see assemble.h).
+// Assembles spaces, symbols and tasks (see assemble.h).
 #include "frontend/dialects/technol/lower/assemble.h"
 
 #include <algorithm>
@@ -21,7 +21,7 @@ constexpr uint32_t kFastPeriodUs = 1000; // man. l.2660
 constexpr uint32_t kScanBudget = 1'000'000;
 constexpr uint32_t kFastBudget = 100'000;
 
-// DS 8 holds a QWORD or a REAL, DS n is bytes; a text has room for its terminator.
+// DS 8 holds a QWORD or a REAL, DS n bytes; a text has room for its terminator.
 ir::Symbol madeSymbol(const Symbol& symbol) {
   ir::Symbol made;
   made.name = text::upper(symbol.name);
@@ -51,7 +51,7 @@ ir::Symbol madeSymbol(const Symbol& symbol) {
   return made;
 }
 
-// Local to one use of a macro.
+// Whether the symbol is local to one use of a macro.
 bool isOfUse(const Symbol& symbol) { return symbol.name.find(kUseMark) != std::string_view::npos; }
 
 bool hasSymbol(const Symbol& symbol) {
@@ -86,14 +86,14 @@ void addSpaces(const Declarations& declarations, ir::Module& module) {
   add("IO", kExchangeSpace, RUNG_SPACE_INPUT | RUNG_SPACE_OUTPUT | RUNG_SPACE_ALLOCATED);
   module.inits = declarations.inits;
   addPowerOnPresets(module);
-  // Saved at a regular shutdown, loaded at the start (man. l.7549).
+  // Saved at a regular shutdown, loaded at start-up (man. l.7549).
   if (const nc::Signal* backup = nc::findSignal(signals, "PLC_MEM_BACKUP", "I"))
     module.retains.push_back({.space = kInterfaceSpace, .byte = backup->byteOffset, .size = backup->count});
 }
 
 namespace {
 
-// Elements of an array of bits, a byte each: NAME[0], NAME[1]...
+// Adds the elements of arrays of bits, one byte each: NAME[0], NAME[1]...
 void addElements(const TypedProgram& program, ir::Module& module) {
   for (const Exchanged& variable : program.declarations.exchanged) {
     if (variable.type != nc::ExchangeType::Bit || variable.count == 1) continue;
@@ -107,14 +107,14 @@ void addElements(const TypedProgram& program, ir::Module& module) {
   }
 }
 
-// A local name of one of several files.
+// A local name qualified by its file.
 std::string inFile(const SourceProgram& program, const Symbol& symbol, const std::string& name) {
   std::string_view path = program.sources.name(program.files[symbol.file].id);
   if (const size_t slash = path.find_last_of('/'); slash != std::string_view::npos) path.remove_prefix(slash + 1);
   return std::string(path) + ":" + name;
 }
 
-// What is local to a use of a macro, by a name that all uses share: which use it is goes by those before it.
+// Adds the local symbols of macro uses under a name that all uses share; the preceding symbols tell which use it is.
 void addOfUses(const TypedProgram& program, ir::Module& module) {
   for (const Symbol& symbol : program.symbols.all()) {
     if (!isOfUse(symbol) || !hasSymbol(symbol)) continue;
@@ -133,7 +133,7 @@ void addSymbols(const TypedProgram& program, ir::Module& module, bool isCompared
   std::unordered_map<std::string, uint32_t> global, local;
   for (const Symbol& symbol : program.symbols.all())
     if (isVisible(symbol)) ++(symbol.local ? local : global)[madeSymbol(symbol).name];
-  // A local name is public where no other file has it. A cell that shares its name with a mechanism is the cell; the
+  // A local name is public if no other file has it. If a cell and a mechanism share a name, it refers to the cell; the
   // mechanism is found in the control's own view.
   for (const Symbol& symbol : program.symbols.all()) {
     if (!isVisible(symbol)) continue;
@@ -157,7 +157,7 @@ namespace {
 
 using LineOfFile = std::pair<uint32_t, uint32_t>;
 
-// Lines that begin a module or a procedure.
+// First lines of modules and procedures.
 std::set<LineOfFile> headingsOf(const SourceProgram& program) {
   std::set<LineOfFile> headings;
   for (const ModulePart& part : program.parts)
@@ -216,11 +216,11 @@ private:
   ir::TaskId bitMessages_;
 };
 
-// A long program without a loop must not run into the watchdog.
+// Adds a task. The budget grows with the weight, so that a long program without a loop does not trigger the watchdog.
 ir::TaskId TaskMaker::add(std::string name, ir::RoutineId routine, uint64_t weight, uint32_t period, bool fast) {
   const uint64_t budget = std::max<uint64_t>(fast ? kFastBudget : kScanBudget, weight * 4);
   std::string_view where = module_.at(routine).name;
-  if (where.starts_with('@')) where.remove_prefix(1); // the routine around an event procedure
+  if (where.starts_with('@')) where.remove_prefix(1); // removes the mark of the wrapper routine of an event procedure
   const std::string fault =
       fast ? std::string(nc::kTechnolFastOverrun) : std::string(nc::kTechnolWatchdog) + std::string(where);
   module_.tasks.push_back({.name = std::move(name),
@@ -235,8 +235,8 @@ void TaskMaker::run(std::vector<ir::Step>& steps, ModuleKind kind, uint32_t time
   if (of(kind).valid()) steps.push_back({.op = RUNG_STEP_RUN, .task = of(kind), .arg = times});
 }
 
-// Fast connections run before MODULE_CYCLICOPERATION and MODULE_FAST, the fastest around MODULE_FASTEST (man.
-// l.13455-13482).
+// Fast connections are exchanged before MODULE_CYCLICOPERATION and MODULE_FAST, the fastest before and after
+// MODULE_FASTEST (man. l.13455-13482).
 void TaskMaker::fastSteps(std::vector<ir::Step>& steps, uint32_t times) const {
   const bool others = of(ModuleKind::Cyclic).valid() || of(ModuleKind::Fastest).valid();
   const bool exchanges = declarations_.exchangesFast;
@@ -276,9 +276,9 @@ void TaskMaker::make() {
   makeScan();
 }
 
-// A pass of the modules with the period. On the virtual clock all fast runs of a period lie between MODULE_INPUT and
-// MODULE_MAIN (technol.md 12.2). On a real one MODULE_FAST runs every millisecond (man. l.2660-2669): the first time in
-// that place, then alone.
+// Builds the schedule of one period. On the virtual clock all fast runs of a period take place between MODULE_INPUT and
+// MODULE_MAIN (technol.md 12.2). On a real clock MODULE_FAST runs every millisecond (man. l.2660-2669): the first time
+// between these modules, then alone.
 void TaskMaker::makeScan() {
   const uint32_t fastRuns = std::max(1u, periodUs_ / kFastPeriodUs);
   pass(module_.scan, periodUs_, fastRuns);

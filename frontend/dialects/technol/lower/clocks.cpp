@@ -10,10 +10,10 @@ using ir::ValueId;
 
 namespace {
 
-// What the slot CLOCK holds while a module runs; a procedure goes by the clock of its caller.
+// Values of the slot CLOCK while a module runs; a procedure uses the clock of its caller.
 enum : int32_t { kMainClock = 0, kFastClock = 1, kNoClock = 2 };
 
-// Modules outside the cycle: no period has passed when they run.
+// Whether the module is outside the cycle: no period has passed when it runs.
 bool runsOnce(ModuleKind kind) {
   return kind == ModuleKind::Init || kind == ModuleKind::Done || kind == ModuleKind::Clear || kind == ModuleKind::Halt;
 }
@@ -31,7 +31,7 @@ Clocks::Clocks(const SourceProgram& program, Emitter& emitter, State& state, uin
 }
 
 void Clocks::find(const Unit& timed) {
-  const Unit* around = &timed; // the module or procedure that it is in
+  const Unit* around = &timed; // the module or procedure that contains it
   while (around->kind != UnitKind::Procedure && around->parent.valid()) around = &program_.at(around->parent);
   const bool inProcedure = around->kind == UnitKind::Procedure;
   if (inProcedure && !clock_.valid()) clock_ = emitter_.newSlot(Type::I32, "CLOCK");
@@ -40,7 +40,7 @@ void Clocks::find(const Unit& timed) {
       used_[fast ? 1 : 0][static_cast<size_t>(findRow(timed.name)->variant)] = true;
 }
 
-// The module that runs first in each millisecond moves the fast clock on.
+// The module that runs first in each millisecond advances the fast clock.
 ModuleKind Clocks::firstFast() const {
   for (const ModuleKind kind : {ModuleKind::Cyclic, ModuleKind::Fastest})
     for (const ModulePart& part : program_.parts)
@@ -71,7 +71,7 @@ void Clocks::callEvent(ir::RoutineId procedure) {
   if (timed) set(kMainClock);
 }
 
-// All blocks of one kind run in the same cycle, first one period after the start.
+// Advances the counters. All blocks of one kind run in the same cycle, for the first time one period after the start.
 void Clocks::advance(bool fast) {
   constexpr int64_t kPeriodsUs[] = {100'000, 1'000'000, 10'000'000, 100'000'000};
   constexpr int64_t kFastCycleUs = 1000;

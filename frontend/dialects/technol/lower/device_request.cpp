@@ -27,7 +27,7 @@ ValueId DeviceRequest::add(ValueId value) {
   return value;
 }
 
-// Numbers are taken with their own width (inventory of the services, 1.4).
+// Adds an operand as a word. Numbers have their own width (inventory of the services, 1.4).
 ValueId DeviceRequest::addOperand(uint32_t number, const Operand& operand, ValueId guard) {
   ir::RungBuilder& b = l_.b();
   const OperandInfo& info = l_.statement().row->info.operands[number];
@@ -90,7 +90,8 @@ const Operand* lengthIn(std::span<const OperandInfo> infos, std::span<const Oper
   return nullptr;
 }
 
-// The number of a space with a text goes by the texts before it. Where the area begins says which one it is.
+// The address and size of an area as one argument. The number of a space with a text depends on the texts before it;
+// where the area begins tells which one it is.
 ValueId bytesArgument(Emitter& emitter, const Area& area, ValueId count) {
   ir::RungBuilder& b = emitter.b();
   const ValueId fixed = emitter.given(Type::I64, nc::technol::bytesArgument(area.space.index, 0, 0));

@@ -1,4 +1,4 @@
-// Data of devices (see device_target.h).
+// Operands with data of devices (see device_target.h).
 #include "frontend/dialects/technol/lower/device_target.h"
 
 #include <algorithm>
@@ -12,7 +12,7 @@ using ir::ValueId;
 
 namespace {
 
-constexpr Type kInteger = Type::I32, kReal = Type::I64; // elements of tables as bytes (man. l.18752)
+constexpr Type kInteger = Type::I32, kReal = Type::I64; // elements of tables in bytes (man. l.18752)
 
 } // namespace
 
@@ -58,7 +58,7 @@ ValueId DeviceTarget::room() const {
   return b.select(b.eq(all, b.i32(0)), all, b.sub(all, b.i32(1)));
 }
 
-// A variable of 8 bytes without a type of its own is a QWORD or a REAL (man. l.700-704).
+// A variable of 8 bytes without a type is a QWORD or a REAL (man. l.700-704).
 Type DeviceTarget::cellType() const {
   if (operand_->type != Type::None) return operand_->type == Type::F64 ? Type::I64 : operand_->type;
   return !operand_->isText && operand_->size() == 8 ? Type::I64 : Type::None;

@@ -11,7 +11,7 @@ using ir::ValueId;
 
 namespace {
 
-// What an address needs is computed before a condition's region.
+// Computes all addresses before the region of a condition.
 std::vector<MemoryAccess> reachAll(Memory& memory, std::span<const Operand> bits, ValueId guard) {
   std::vector<MemoryAccess> places;
   for (const Operand& bit : bits) places.push_back(memory.reach(bit, guard));
@@ -36,8 +36,8 @@ void lowerJoin(Lowering& l, std::span<const Operand> o, int logic) {
 
 void lowerComplement(Lowering& l, std::span<const Operand>, int) { l.r().setRlo(l.b().not_(l.r().rlo())); }
 
-// The former value: 0 before the first execution after a start, then 2 or 3. The first execution reports no edge (man.
-// l.300).
+// The slot holds the previous value: 0 before the first execution after a start, then 2 or 3. The first execution
+// reports no edge (man. l.300).
 void lowerEdge(Lowering& l, std::span<const Operand> o, int rising) {
   constexpr int kWasLow = 2, kWasHigh = 3;
   const ir::SlotId former = l.ownSlot(Type::I8);
@@ -72,7 +72,7 @@ void lowerMoveBit(Lowering& l, std::span<const Operand> o, int condition) {
   });
 }
 
-// CHECK is for the compiler.
+// CHECK concerns only the compiler.
 void lowerNothing(Lowering&, std::span<const Operand>, int) {}
 
 void lowerJump(Lowering& l, std::span<const Operand> o, int condition) {

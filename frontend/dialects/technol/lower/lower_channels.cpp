@@ -1,4 +1,4 @@
-// CAN and COM.
+// CAN bus and serial ports.
 #include <algorithm>
 
 #include "frontend/dialects/technol/lower/device_request.h"
@@ -6,7 +6,7 @@
 
 namespace rung::frontend::technol {
 
-// CAN bus: packets, orders of packets, units, drives (man. ch. 9.4, 9.5, 13.14).
+// CAN bus: packets, requests for packets, units, drives (man. ch. 9.4, 9.5, 13.14).
 
 using ir::Type;
 using ir::ValueId;
@@ -16,7 +16,7 @@ namespace {
 // TCANMSGS (man. l.9497-9511).
 constexpr uint32_t kId = 0, kRtr = 2, kLength = 3, kData = 4, kDataBytes = 8, kPacketBytes = kData + kDataBytes;
 constexpr int64_t kIdBits = 0x7FF;
-// Of a packet to a drive: request of service data (man. l.9203, l.9488).
+// Identifier base of packets to a drive: service data request (man. l.9203, l.9488).
 constexpr int64_t kServiceDataId = 0x600;
 
 ValueId memberOf(ir::RungBuilder& b, const Area& packet, uint32_t offset, Type type) {
@@ -29,7 +29,8 @@ Area dataOf(ir::RungBuilder& b, const Area& packet) { return shifted(b, packet, 
 
 } // namespace
 
-// DR says whether the queue took it (man. l.3709-3742). More than 8 bytes are 8.
+// Sends a packet of at most 8 bytes; a larger length counts as 8. DR tells whether the queue accepted it (man.
+// l.3709-3742).
 void lowerCanSend(Lowering& l, std::span<const Operand> o, int) {
   ir::RungBuilder& b = l.b();
   const Area packet = areaOf(l.memory, o[1]);
@@ -45,7 +46,7 @@ void lowerCanSend(Lowering& l, std::span<const Operand> o, int) {
   l.r().setDr(request.result("DR"));
 }
 
-// The packet is written where one was there: DR is 0 (man. l.3743-3778).
+// Stores a received packet; DR is 0 if there was one (man. l.3743-3778).
 void lowerCanReceive(Lowering& l, std::span<const Operand> o, int) {
   ir::RungBuilder& b = l.b();
   const Area packet = areaOf(l.memory, o[1]);
@@ -64,7 +65,7 @@ void lowerCanReceive(Lowering& l, std::span<const Operand> o, int) {
   l.r().setDr(code);
 }
 
-// CAN_RECV_REQ can, objl, [objh], idl, [idh], proc, pmsg: without an upper bound it is the lower one (man.
+// CAN_RECV_REQ can, objl, [objh], idl, [idh], proc, pmsg: an omitted upper bound equals the lower one (man.
 // l.3814-3831).
 void lowerCanOrder(Lowering& l, std::span<const Operand> o, int) {
   ir::RungBuilder& b = l.b();
@@ -81,7 +82,7 @@ void lowerCanOrder(Lowering& l, std::span<const Operand> o, int) {
   l.r().setDr(request.result("DR"));
 }
 
-// RLO is 1 for an error, and DR stays (man. l.4296-4299).
+// On an error RLO is 1 and DR does not change (man. l.4296-4299).
 void lowerUnitRead(Lowering& l, std::span<const Operand> o, int) {
   DeviceRequest request(l);
   for (uint32_t i = 0; i < o.size(); ++i) request.addOperand(i, o[i]);
@@ -99,7 +100,7 @@ void lowerUnitWrite(Lowering& l, std::span<const Operand> o, int) {
   l.r().setRlo(request.flag("RLO"));
 }
 
-// The packet's head is filled in; CAN_AX_BUSY is 0FFh until the drive has answered (man. l.9474-9493).
+// Fills in the packet's head; CAN_AX_BUSY is 0FFh until the drive has answered (man. l.9474-9493).
 void lowerDriveSend(Lowering& l, std::span<const Operand> o, int) {
   ir::RungBuilder& b = l.b();
   const Area packet =
@@ -116,12 +117,12 @@ void lowerDriveSend(Lowering& l, std::span<const Operand> o, int) {
   request.send();
 }
 
-// Serial ports (man. ch. 23.3); what sends several characters is lowerService.
+// Serial ports (man. ch. 23.3); lowerService lowers instructions that send several characters.
 
 using ir::Type;
 using ir::ValueId;
 
-// COM_SEND com [,val]: without the operand the low byte of DR (man. l.21063).
+// COM_SEND com [,val]: without the operand, sends the low byte of DR (man. l.21063).
 void lowerComSend(Lowering& l, std::span<const Operand> o, int) {
   DeviceRequest request(l);
   request.addOperand(0, o[0]);
@@ -133,7 +134,7 @@ void lowerComSend(Lowering& l, std::span<const Operand> o, int) {
   l.r().setRlo(request.flag("RLO"));
 }
 
-// COM_RECV com [,val]: RLO is 0 where a character was there, which val or DR becomes (man. l.21138-21152).
+// COM_RECV com [,val]: RLO is 0 if there was a character, which is stored in val or DR (man. l.21138-21152).
 void lowerComReceive(Lowering& l, std::span<const Operand> o, int) {
   ir::RungBuilder& b = l.b();
   const MemoryAccess target = o[1].given() ? l.memory.reach(o[1]) : MemoryAccess{};
@@ -148,7 +149,7 @@ void lowerComReceive(Lowering& l, std::span<const Operand> o, int) {
   l.r().setRlo(none);
 }
 
-// COM_CONTROL com,CLEAR|RECEIVED|STATE: the first leaves DR alone (man. l.21165-21198).
+// COM_CONTROL com,CLEAR|RECEIVED|STATE: CLEAR does not change DR (man. l.21165-21198).
 void lowerComControl(Lowering& l, std::span<const Operand> o, int) {
   DeviceRequest request(l);
   request.addOperand(0, o[0]);

@@ -22,7 +22,7 @@ constexpr uint32_t kHead = nc::kConfigurationHead;
 constexpr uint32_t kWords = nc::kConfigurationWords;
 constexpr uint32_t kBytes = nc::kConfigurationBytes;
 
-// The identifier, eight characters a word.
+// The identifier, eight characters per word.
 using Words = std::vector<ValueId>;
 
 ValueId request(Emitter& emitter, Kind kind, ValueId part, const Words& id) {
@@ -78,7 +78,7 @@ void getValue(Lowering& l, std::span<const Operand> o, Kind kind) {
 
 // ---- texts ----------------------------------------------------------------------------------------------------------
 
-// What the target has no room for is cut off.
+// Stores a text, cut off at the end of the target.
 void putText(Emitter& emitter, const Text& target, Kind kind, const Words& id, ValueId found) {
   ir::RungBuilder& b = emitter.b();
   const Length length{.fixed = false, .most = UINT32_MAX, .value = found};
@@ -111,7 +111,7 @@ void getText(Lowering& l, std::span<const Operand> o, Kind kind) {
 
 } // namespace
 
-// CNF_GET_xx target, identifier [, default] and CONST_GET cell, identifier: RLO says whether it was found.
+// CNF_GET_xx target, identifier [, default] and CONST_GET cell, identifier: RLO tells whether it was found.
 void lowerConfiguration(Lowering& l, std::span<const Operand> o, int kind) {
   const auto wanted = static_cast<Kind>(kind);
   if (wanted != Kind::Text && wanted != Kind::Binary) return getValue(l, o, wanted);

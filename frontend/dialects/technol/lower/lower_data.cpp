@@ -15,7 +15,7 @@ namespace {
 
 Type widthOf(const Operand& operand) { return operand.given() ? operand.type : Type::I16; }
 
-// A result that is not a number, or a division by zero, is the coprocessor's error.
+// A result that is not a number, or a division by zero, causes the coprocessor's fault.
 ValueId checkedReal(Emitter& emitter, ValueId result, ValueId divisor = {}) {
   ir::RungBuilder& b = emitter.b();
   ValueId bad = b.not_(b.fEq(result, result));
@@ -30,7 +30,7 @@ void realArithmetic(Lowering& l, const Operand& operand, int operation) {
   l.r().setReal(checkedReal(l.emitter, result, operation == kDivide ? right : ValueId{}));
 }
 
-// Twice as wide, up to 64 bits: what a product or a dividend takes (man. l.1091-1132).
+// Twice the width, up to 64 bits: that of a product or dividend (man. l.1091-1132).
 Type doubled(Type type) { return type == Type::I8 ? Type::I16 : type == Type::I16 ? Type::I32 : Type::I64; }
 
 void multiply(Lowering& l, const Operand& operand) {
@@ -41,7 +41,8 @@ void multiply(Lowering& l, const Operand& operand) {
   l.r().setDr(b.mul(b.sextOrTrunc(wide, left), b.sextOrTrunc(wide, right)));
 }
 
-// 8, 16 and 32 bit divisors divide 16, 32 and 64 bits of DR; the quotient must fit 32 bits (man. l.1110-1132, l.5354).
+// Divisors of 8, 16 and 32 bits divide 16, 32 and 64 bits of DR; the quotient must fit into 32 bits (man. l.1110-1132,
+// l.5354).
 void divide(Lowering& l, const Operand& operand) {
   ir::RungBuilder& b = l.b();
   const ValueId right = b.sextOrTrunc(Type::I64, l.memory.value(operand));
@@ -97,7 +98,7 @@ void lowerBitwise(Lowering& l, std::span<const Operand> o, int logic) {
   l.r().setDrPart(combine(l.b(), logic, l.r().dr(o[0].type), right));
 }
 
-// EQ1 compares only while RLO is 1, and leaves it 0 otherwise (man. l.1404).
+// EQ1 compares only if RLO is 1; otherwise RLO stays 0 (man. l.1404).
 void lowerCompare(Lowering& l, std::span<const Operand> o, int relation) {
   const ValueId rlo = relation == kEqualIfRlo ? l.r().rlo() : ValueId{};
   const ValueId right = l.memory.value(o[0], rlo);
@@ -127,14 +128,14 @@ void lowerUnary(Lowering& l, std::span<const Operand> o, int operation) {
   }
 }
 
-// 0..9999 in 16 bits; after 9999 comes 0 (man. l.1225).
+// 0..9999 in 16 bits; 9999 is followed by 0 (man. l.1225).
 void lowerIncrementBcd(Lowering& l, std::span<const Operand>, int) {
   ir::RungBuilder& b = l.b();
   const ValueId next = b.add(b.bcdDecode(l.r().dr(Type::I16)), b.constant(Type::I16, 1));
   l.r().setDrPart(b.bcdEncode(next));
 }
 
-// With DWRD bit 31 marks a negative number, the other bits are its magnitude (man. l.1250).
+// With DWRD bit 31 marks a negative number; the other bits are its magnitude (man. l.1250).
 void lowerBin(Lowering& l, std::span<const Operand> o, int) {
   ir::RungBuilder& b = l.b();
   const Type type = widthOf(o[0]);
@@ -156,7 +157,7 @@ void lowerShift(Lowering& l, std::span<const Operand> o, int right) {
   l.r().setDrPart(b.op(right ? OpCode::ShrU : OpCode::Shl, type, {l.r().dr(type), count}));
 }
 
-// The integer is sign-extended to 64 bits first and stays in DR (man. l.1511).
+// The integer is first sign-extended to 64 bits and stays in DR (man. l.1511).
 void lowerToReal(Lowering& l, std::span<const Operand> o, int) {
   const ValueId whole = l.b().sextOrTrunc(Type::I64, l.r().dr(widthOf(o[0])));
   l.r().setReal(l.b().intToF(whole));
@@ -174,7 +175,7 @@ void lowerDrToRlo(Lowering& l, std::span<const Operand> o, int) {
   l.r().setRlo(b.ne(l.r().dr(type), b.constant(type, 0)));
 }
 
-// FFFFh or FFFFFFFFh for 1; the bits above follow the sign.
+// RLO = 1 gives FFFFh or FFFFFFFFh; the bits above are sign-extended.
 void lowerRloToDr(Lowering& l, std::span<const Operand>, int) { l.r().setDr(l.b().sext(Type::I64, l.r().rlo())); }
 
 void lowerMovBx(Lowering& l, std::span<const Operand>, int) {
@@ -186,7 +187,8 @@ void lowerMovBx(Lowering& l, std::span<const Operand>, int) {
 using ir::Type;
 using ir::ValueId;
 
-// RLO = 0 clears the count; else it counts up to the preset in DR, and RLO says that it is there (man. l.884-916).
+// RLO = 0 clears the count; otherwise it counts up to the preset in DR, and RLO tells whether it has reached it (man.
+// l.884-916).
 void lowerTimer(Lowering& l, std::span<const Operand> o, int) {
   ir::RungBuilder& b = l.b();
   const CountCell cell = l.countCell(o[0]);
@@ -207,7 +209,8 @@ void lowerTimer(Lowering& l, std::span<const Operand> o, int) {
   l.r().setRlo(b.choose(rlo, run, clear));
 }
 
-// Counts on 0 -> 1 of RLO; then RLO says whether the count is the preset in DR, and DR is the count (man. l.955-977).
+// Counts rising edges of RLO; then RLO tells whether the count equals the preset in DR, and DR is the count (man.
+// l.955-977).
 void lowerCounter(Lowering& l, std::span<const Operand> o, int kind) {
   ir::RungBuilder& b = l.b();
   const CountCell cell = l.countCell(o[0]);

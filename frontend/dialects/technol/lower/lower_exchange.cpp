@@ -1,5 +1,5 @@
-// Mapped and logical inputs and outputs (man. ch. 10, 27): the declared variable takes its default value, and the
-// control learns of it.
+// Mapped and logical inputs and outputs (man. ch. 10, 27): the declared variable gets its default value and is
+// registered with the control.
 #include "frontend/dialects/technol/lower/lower_exchange.h"
 
 #include <algorithm>
@@ -34,7 +34,7 @@ ValueId fromBits(ir::RungBuilder& b, ValueId word, Type type) {
   return b.zextOrTrunc(type, word);
 }
 
-// All elements become `value`.
+// Sets all elements to `value`.
 void fill(ir::RungBuilder& b, const Operand& target, uint32_t count, ValueId value) {
   if (count == 1) return b.store(target.place, value);
   const bool bits = target.type == Type::Bit;
@@ -62,7 +62,8 @@ ExchangePeriod periodOf(ExchangeKind kind, const Operand& given) {
   return nc::isMapped(kind) ? ExchangePeriod::Fast : static_cast<ExchangePeriod>(given.value);
 }
 
-// A value of the configuration goes before the instruction's own; without both the variable stays.
+// Sets the default. A value from the configuration has priority over the instruction's own; without both, the variable
+// does not change.
 void setDefault(ir::RungBuilder& b, const Exchanged& variable, const Operand& target, const Operand& given,
                 ValueId ticket) {
   if (variable.type == ExchangeType::Text && given.given()) return fillText(b, target, given);
@@ -93,7 +94,7 @@ void lowerDefine(Lowering& l, std::span<const Operand> o, int) {
 
 namespace {
 
-// One element, which begins `offset` bytes after the variable's place.
+// Updates one element, which begins `offset` bytes after the variable.
 void takeElement(Emitter& emitter, const Operand& target, uint32_t offset) {
   ir::RungBuilder& b = emitter.b();
   ir::Place at = target.place;
@@ -105,7 +106,7 @@ void takeElement(Emitter& emitter, const Operand& target, uint32_t offset) {
 
 } // namespace
 
-// UPDATE_IN input or input[i]: also the outputs of this program that are connected to it, as they are now.
+// UPDATE_IN input or input[i]: also takes the current values of this program's outputs that are connected to it.
 void lowerUpdate(Lowering& l, std::span<const Operand> o, int) {
   const Exchanged& variable = l.program.declarations.exchanged[o[0].index];
   const uint32_t bytes = nc::bytesOf(variable.type);
@@ -114,7 +115,7 @@ void lowerUpdate(Lowering& l, std::span<const Operand> o, int) {
   for (uint32_t i = first; i < end; ++i) takeElement(l.emitter, o[0], i * bytes);
 }
 
-// Variables that screens see by a name (man. ch. 18.2).
+// Variables that screens access by name (man. ch. 18.2).
 
 using ir::Type;
 using ir::ValueId;
@@ -124,7 +125,7 @@ using nc::ExchangeType;
 
 namespace {
 
-// Where an operand lies, as an argument; BX is taken now.
+// The place of an operand as an argument, with the current value of BX.
 ValueId placeOf(Memory& memory, const Operand& operand, uint32_t bit) {
   const MemoryAccess access = memory.reach(operand);
   ir::RungBuilder& b = memory.emitter().b();
@@ -167,7 +168,7 @@ void lowerShareBit(Lowering& l, std::span<const Operand> o, int) {
   share(l, nc::exchangeArgument(ExchangeKind::Bit, ExchangeType::Bit, ExchangePeriod::Slow, 1), o[1], places);
 }
 
-// Identifiers as words.
+// Identifiers as words of eight characters.
 
 using ir::Type;
 using ir::ValueId;
@@ -180,7 +181,7 @@ ValueId quotedWord(ir::RungBuilder& b, std::string_view text) {
   return b.constant(Type::I64, static_cast<int64_t>(bits));
 }
 
-// Characters `first` to `first` + `count`.
+// One word with the characters from `first` on, `count` of them.
 ValueId loadedWord(ir::RungBuilder& b, const Text& text, uint32_t first, uint32_t count) {
   const auto in = b.loop(count, std::array{b.constant(Type::I64, 0)});
   const ValueId number = b.add(in[0], b.i32(first));

@@ -9,10 +9,11 @@ using ir::ValueId;
 
 namespace {
 
-// While the condition fails the unit is left without moving its continuation; the line shows which step it has reached.
+// Whether the unit waits: it is then left without changing its continuation, and its line shows the step it has
+// reached.
 ValueId waits(Lowering& l, int level) { return level == 0 ? l.b().not_(l.r().rlo()) : l.r().rlo(); }
 
-// The time in the width of the count: the wait ends at the latest when the count can go no further.
+// The time, limited to the width of the count: the wait ends at the latest when the count reaches its maximum.
 ValueId timeFor(Lowering& l, const CountCell& cell, const Operand& operand) {
   const ValueId time = l.b().zextOrTrunc(Type::I32, l.memory.value(operand));
   if (cell.type != Type::I8 || operand.isConstant()) return time;
@@ -54,7 +55,7 @@ void lowerExWhile(Lowering& l, std::span<const Operand>, int level) {
   l.emitter.out().bind(s.states[next]);
 }
 
-// TEX: at the t-th failure control goes to the error label, with the code in DR if there is one (man. l.2107-2131).
+// TEX: at the t-th failure control continues at the error label, with the code, if any, in DR (man. l.2107-2131).
 void lowerTimedEx(Lowering& l, std::span<const Operand> o, int level) {
   Sequence& s = l.sequences.current();
   const uint32_t error = l.jumpTarget(o[2]);
@@ -77,7 +78,7 @@ void lowerTimedEx(Lowering& l, std::span<const Operand> o, int level) {
   l.emitter.out().bind(s.states[next]);
 }
 
-// TIM: the continuation is the instruction itself while the time runs (§11.2).
+// TIM: while the time runs, the continuation is the instruction itself (§11.2).
 void lowerWait(Lowering& l, std::span<const Operand> o, int) {
   Sequence& s = l.sequences.current();
   const CountCell arriving = l.countCell(o[0]);
@@ -91,7 +92,7 @@ void lowerWait(Lowering& l, std::span<const Operand> o, int) {
 
   ir::RungBuilder& b = l.b();
   CountCell cell = arriving;
-  if (o[0].given()) cell.access = l.memory.reach(o[0]); // the index belongs to this rung
+  if (o[0].given()) cell.access = l.memory.reach(o[0]); // the index must be computed in this rung
   const ValueId count = b.add(l.state.load(cell), b.constant(cell.type, 1));
   const ValueId time = timeFor(l, cell, o[1]);
   const ValueId runs = b.ltU(b.zextOrTrunc(Type::I32, count), time);

@@ -21,7 +21,7 @@ MessageParts partsOf(Memory& memory, ValueId number, const Operand& subId, std::
   return {number, valueOr0(memory, subId, Type::I32), valueOr0(memory, pars[2], Type::I32), both};
 }
 
-// `set` 1 shows and 0 removes; without it the message is shown.
+// Shows the message if `set` is 1 or not given; removes it if `set` is 0.
 void showOrRemove(ir::RungBuilder& b, const MessageParts& m, ValueId set) {
   if (!set.valid()) return send(b, m, RUNG_MESSAGE_SHOW_LOG, 0);
   const auto give = [&](uint32_t op) { return [&, op] { send(b, m, op, nc::technol::kPersistentWanted); }; };
@@ -30,8 +30,8 @@ void showOrRemove(ir::RungBuilder& b, const MessageParts& m, ValueId set) {
 
 } // namespace
 
-// ESET [error],[subid],[set],[par1],[par2],[par3]; the number is in DR where it is not given (man. l.5086-5130).
-// _ON_ESET is called with the number in DR when a message comes up, not when one is removed (man. l.1609, l.5132).
+// ESET [error],[subid],[set],[par1],[par2],[par3]; an omitted number is taken from DR (man. l.5086-5130). _ON_ESET is
+// called with the number in DR when a message is shown, not when one is removed (man. l.1609, l.5132).
 void lowerMessage(Lowering& l, std::span<const Operand> o, int condition) {
   ir::RungBuilder& b = l.b();
   const ValueId word = o[0].given() ? b.zextOrTrunc(Type::I16, l.memory.value(o[0])) : l.r().dr(Type::I16);
@@ -56,12 +56,12 @@ void lowerMessage(Lowering& l, std::span<const Operand> o, int condition) {
 
 namespace {
 
-constexpr uint32_t kMostEntries = 64; // of one EDEF
+constexpr uint32_t kMostEntries = 64; // per EDEF
 
 } // namespace
 
-// EDEF [val],bit,error,[subid],mod,[par1],[par2],[par3] (man. l.5192-5260). Carried out again it is the same message
-// while number and addresses are the same, else one more.
+// EDEF [val],bit,error,[subid],mod,[par1],[par2],[par3] (man. l.5192-5260). Executed again with the same number and
+// addresses it refers to the same message, otherwise it adds another one.
 void lowerBitMessage(Lowering& l, std::span<const Operand> o, int) {
   const ValueId word = l.b().zextOrTrunc(Type::I16, l.memory.value(o[2]));
   const ValueId number = l.b().zextOrTrunc(Type::I32, word), subId = valueOr0(l.memory, o[3], Type::I32);
@@ -75,7 +75,7 @@ void lowerBitMessage(Lowering& l, std::span<const Operand> o, int) {
   l.bitMessages.add(message, number, subId);
 }
 
-// Bits that make messages.
+// Bits that trigger messages.
 
 using ir::Type;
 using ir::ValueId;
@@ -83,12 +83,13 @@ using ir::ValueId;
 namespace {
 
 constexpr uint32_t kCountBytes = 4;
-// What an entry holds, by the byte where it begins in it. The index of a bit and of three values, where BX was added.
+// Layout of an entry, as byte offsets. The index field holds the indices of the bit and the three values, where BX was
+// added.
 enum Field : uint32_t { kNumberField = 0, kSubIdField = 4, kIndexField = 8, kOldField = 24 };
 constexpr uint32_t kEntryBytes = 28;
 enum Edge : uint32_t { kNever, kRising, kFalling };
 
-// Reaches the entries of one statement in the space @EDEF.
+// Accesses the entries of one statement in the space @EDEF.
 class Entries {
 public:
   Entries(ir::RungBuilder& b, ir::SpaceId space, const BitMessage& message) : b_(b), space_(space), message_(message) {}
@@ -131,7 +132,7 @@ void BitMessages::reserve(BitMessage& message) {
                    Type::I8, bytes);
 }
 
-// The bit is sampled when it is tied: what comes later is an edge.
+// Adds an entry. The bit is sampled now, so only later changes are edges.
 void BitMessages::add(BitMessage message, ValueId number, ValueId subId) {
   reserve(message);
   ir::RungBuilder& b = emitter_.b();
@@ -170,7 +171,7 @@ void BitMessages::forget() {
 
 namespace {
 
-// Looks at one bit; its edges show and remove the message.
+// Watches one bit; its edges show and remove the message.
 class BitWatch {
 public:
   BitWatch(Memory& memory, ir::SpaceId space, const BitMessage& message)
@@ -208,7 +209,7 @@ private:
             valueOf(2, entry), bothPars(b_, valueOf(0, entry), valueOf(1, entry))};
   }
 
-  // By reference: as the cell is now.
+  // A parameter, with the current value of its cell.
   ValueId valueOf(size_t par, ValueId entry) {
     const Operand& operand = message_.pars[par];
     if (!operand.given()) return b_.i32(0);

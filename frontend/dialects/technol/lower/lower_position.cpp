@@ -1,4 +1,4 @@
-// The positioning unit: motions of an axis that the program controls by two records of its own (man. ch. 19).
+// The positioning unit: the program controls motions of an axis through two records of its own (man. ch. 19).
 #include "frontend/dialects/technol/lower/device_request.h"
 #include "frontend/dialects/technol/lower/lower.h"
 
@@ -9,10 +9,10 @@ using ir::ValueId;
 
 namespace {
 
-constexpr uint32_t kRecordBytes = 2, kBits = 1; // the second byte has the bits of the control record (man. l.12101)
+constexpr uint32_t kRecordBytes = 2, kBits = 1; // the second byte holds the bits of the control record (man. l.12101)
 constexpr int64_t kMp = 1, kControlBits = 15;
 
-// Where the control record of an axis, i64, is kept.
+// Where the reference to the control record of an axis (i64) is stored.
 struct KeptRecord {
   ir::Window window;
   ValueId index;
@@ -24,12 +24,12 @@ KeptRecord keptOf(ir::RungBuilder& b, ValueId axis) {
           .index = b.mul(number, b.i32(8))};
 }
 
-// The bits of a control record that the unit writes; the others stay (man. l.12101-12133).
+// Merges the bits of a control record that the unit writes; the others do not change (man. l.12101-12133).
 ValueId withBits(ir::RungBuilder& b, ValueId byte, ValueId mask, ValueId bits) {
   return b.or_(b.and_(byte, b.not_(mask)), b.and_(bits, mask));
 }
 
-// In the record that the last POS_MODE of the axis named, whichever memory it lies in.
+// Writes bits to the record that the last POS_MODE of the axis named, in whichever memory it is.
 void writeKept(Memory& memory, ValueId axis, ValueId mask, ValueId bits) {
   ir::RungBuilder& b = memory.emitter().b();
   const KeptRecord kept = keptOf(b, axis);
@@ -48,8 +48,8 @@ void writeKept(Memory& memory, ValueId axis, ValueId mask, ValueId bits) {
 
 } // namespace
 
-// POS_MODE control,len,accel,axis: the initiator is started, the motion not yet allowed (man. l.12205-12238). What the
-// unit refuses leaves the record alone, and the former one stays that of POS_CONTROL.
+// POS_MODE control,len,accel,axis: starts the initiator without allowing the motion yet (man. l.12205-12238). If the
+// unit refuses, the record does not change, and POS_CONTROL continues to use the previous one.
 void lowerPositionMode(Lowering& l, std::span<const Operand> o, int) {
   ir::RungBuilder& b = l.b();
   const Area record = areaOf(l.memory, o[0]);
@@ -69,7 +69,7 @@ void lowerPositionMode(Lowering& l, std::span<const Operand> o, int) {
   });
 }
 
-// POS_CONTROL status,feed,[mp],axis: without mp the motion is allowed (inventory of the services, 6).
+// POS_CONTROL status,feed,[mp],axis: if mp is omitted, the motion is allowed (inventory of the services, 6).
 void lowerPositionControl(Lowering& l, std::span<const Operand> o, int) {
   ir::RungBuilder& b = l.b();
   const Area status = areaOf(l.memory, o[0]);

@@ -1,5 +1,6 @@
-// Instructions that ask a device of the control (man. ch. 9, 11-13, 17-19, 23, 26): those that continue at once, and
-// those of EX kind, which are executed in every run of their mechanism until they are answered (inventory 11.3).
+// Instructions that send a request to a device of the control (man. ch. 9, 11-13, 17-19, 23, 26): those that continue
+// at once, and those of the EX kind, which are executed in every run of their mechanism until they are answered
+// (inventory 11.3).
 #include <vector>
 
 #include "frontend/dialects/technol/lower/device_target.h"
@@ -16,14 +17,15 @@ namespace {
 bool isRead(const OperandInfo& info) { return info.access != Access::Write; }
 bool isWritten(const OperandInfo& info) { return info.access != Access::Read; }
 
-// The operands of a statement with what their row says of them.
+// The operands of a statement and their descriptions in its row.
 struct Given {
   std::span<const OperandInfo> infos;
   std::span<const Operand> operands;
-  std::vector<DeviceTarget> targets; // of those that are written
+  std::vector<DeviceTarget> targets; // for operands that are written
 };
 
-// Where `guard` is 1, more bytes than the data have from there on stop the program.
+// Number of bytes to transfer. If `guard` is 1 and the length exceeds the rest of the data, the program stops with a
+// fault.
 ValueId lengthOf(Lowering& l, const Given& given, const DeviceTarget& data, ValueId guard) {
   const Operand* length = lengthIn(given.infos, given.operands);
   if (length == nullptr) return data.room();
@@ -44,7 +46,7 @@ void addArguments(Lowering& l, DeviceRequest& request, const Given& given, DataF
       continue;
     }
     const DeviceTarget data(l, given.operands[i], guard);
-    if (isWritten(info)) { // PLCT_COL_ID: the number of the column lies where its name will be
+    if (isWritten(info)) { // PLCT_COL_ID: the column number is stored where its name will be
       data.addWord(request);
       continue;
     }
@@ -54,7 +56,7 @@ void addArguments(Lowering& l, DeviceRequest& request, const Given& given, DataF
   }
 }
 
-// What the operands become by an answer.
+// Stores the results of an answer in the operands.
 void store(DeviceRequest& request, ValueId ticket, const Given& given, DataForm form) {
   for (uint32_t i = 0; i < given.operands.size(); ++i) {
     const OperandInfo& info = given.infos[i];
@@ -63,7 +65,7 @@ void store(DeviceRequest& request, ValueId ticket, const Given& given, DataForm 
   }
 }
 
-// `guard`: the operands count; not valid: in every run.
+// Prepares the operands. `guard`: whether they are used in this run; an invalid id: always.
 Given givenTo(Lowering& l, std::span<const Operand> operands, DataForm form, ValueId guard) {
   Given given{.infos = l.statement().row->info.operands.all(), .operands = operands, .targets = {}};
   given.targets.resize(operands.size());
@@ -79,8 +81,8 @@ Given givenTo(Lowering& l, std::span<const Operand> operands, DataForm form, Val
   return given;
 }
 
-// ECAT_COMMAND without Val and Len whose command lies in a cell: the code where it asks for a state, which has no place
-// to go to (man. l.18231); else 0. The command is the one of the run in which it was asked.
+// For ECAT_COMMAND without Val and Len whose command is in a cell: the error code if the command asks for a state,
+// which could not be stored (man. l.18231); otherwise 0. The command is the one of the run that sent the request.
 ValueId codeWithoutPlace(Lowering& l, const Given& given, ValueId isNew) {
   ir::RungBuilder& b = l.b();
   const Operand* command = nullptr;
@@ -98,7 +100,7 @@ ValueId codeWithoutPlace(Lowering& l, const Given& given, ValueId isNew) {
   return b.select(b.slotLoad(slot), b.constant(Type::I64, nc::technol::kNoPlaceCode), b.constant(Type::I64, 0));
 }
 
-// Where the unit continues until the instruction is answered: at itself.
+// The unit continues at this instruction until it is answered.
 void continueHere(Lowering& l) {
   Sequence& s = l.sequences.current();
   const uint32_t here = l.sequences.newState(s);
@@ -108,7 +110,7 @@ void continueHere(Lowering& l) {
 
 } // namespace
 
-// Results are RLO and DR as the row's effects say.
+// RLO and DR are set according to the row's effects.
 void lowerService(Lowering& l, std::span<const Operand> o, int form) {
   const uint16_t effects = l.statement().row->effects;
   const auto data = static_cast<DataForm>(form);
@@ -119,8 +121,8 @@ void lowerService(Lowering& l, std::span<const Operand> o, int form) {
   if (effects & kSetsDr) l.r().setDr(request.result("DR"));
 }
 
-// PLCT_*, ECAT_*: one request of this place at a time, whose answer is there in the next run at the earliest. Operands
-// are read when it is made; what is written is the place that they named then.
+// PLCT_*, ECAT_*: each instruction has one request at a time, which is answered in the next run at the earliest.
+// Operands are read when the request is sent; results are stored in the places that they named then.
 void lowerPolled(Lowering& l, std::span<const Operand> o, int form) {
   continueHere(l);
   ir::RungBuilder& b = l.b();
@@ -148,7 +150,8 @@ void lowerPolled(Lowering& l, std::span<const Operand> o, int form) {
   l.r().setDr(code);
 }
 
-// SA_READ, SA_WRITE: done in the same run unless the area is locked; then asked anew (man. l.15547-15561).
+// SA_READ, SA_WRITE: complete in the same run unless the area is locked; then the request is repeated (man.
+// l.15547-15561).
 void lowerShared(Lowering& l, std::span<const Operand> o, int form) {
   continueHere(l);
   const auto data = static_cast<DataForm>(form);

@@ -9,9 +9,9 @@ using ir::ValueId;
 
 namespace {
 
-constexpr int64_t kPorts = 16; // of analogue outputs (man. l.7730)
+constexpr int64_t kPorts = 16; // number of analogue outputs (man. l.7730)
 
-// The output is there at once (inventory of the services, 4): the answer says which port becomes what.
+// Stores an output. It takes effect at once (inventory of the services, 4): the answer tells the port and its value.
 void storeOutput(ir::RungBuilder& b, DeviceRequest& request) {
   const nc::Signal& outputs = interfaceSignal("SU_OUT_PLC");
   const ValueId number = b.sub(request.result("port"), b.constant(Type::I64, 1));
@@ -22,7 +22,7 @@ void storeOutput(ir::RungBuilder& b, DeviceRequest& request) {
   b.when(b.ltU(number, b.constant(Type::I64, kPorts)), [&] { b.storeAt(window, at, value); });
 }
 
-// Without an operand the value is in DR, of 16 bits (man. l.7776).
+// Adds the value; without an operand it is the low 16 bits of DR (man. l.7776).
 void addValue(Lowering& l, DeviceRequest& request, const Operand& value) {
   if (value.given())
     request.addOperand(0, value);
@@ -32,7 +32,7 @@ void addValue(Lowering& l, DeviceRequest& request, const Operand& value) {
 
 } // namespace
 
-// The port is that of ANALOG until the next one, in all modules (man. l.7730, l.7783).
+// Selects the port of ANALOG, in all modules, until the next ANALOG_PORT (man. l.7730, l.7783).
 void lowerAnalogPort(Lowering& l, std::span<const Operand> o, int) {
   ir::RungBuilder& b = l.b();
   DeviceRequest request(l);
@@ -42,8 +42,8 @@ void lowerAnalogPort(Lowering& l, std::span<const Operand> o, int) {
   request.send();
 }
 
-// ANALOG [val] to the port, ANALOG val|-, axis [,spi] to a spindle. Before the first ANALOG_PORT there is no port, and
-// nothing happens.
+// ANALOG [val] writes to the port, ANALOG val|-, axis [,spi] to a spindle. Before the first ANALOG_PORT no port is
+// selected and nothing happens.
 void lowerAnalog(Lowering& l, std::span<const Operand> o, int) {
   ir::RungBuilder& b = l.b();
   using enum nc::technol::ServiceKind;
@@ -72,7 +72,7 @@ void lowerAnalogSpindle(Lowering& l, std::span<const Operand> o, int) {
   storeOutput(l.b(), request);
 }
 
-// A spindle that is switched off has the output 0 (man. l.7984).
+// The output of a spindle that is switched off becomes 0 (man. l.7984).
 void lowerToSpindle(Lowering& l, std::span<const Operand> o, int) {
   DeviceRequest request(l);
   for (uint32_t i = 0; i < o.size(); ++i) request.addOperand(i, o[i]);
@@ -80,8 +80,8 @@ void lowerToSpindle(Lowering& l, std::span<const Operand> o, int) {
   storeOutput(l.b(), request);
 }
 
-// POLOHV_x is 1 until the axis has been positioned; 0 written there ends it (man. l.7964-7973). If no device positions
-// axes it stays 0, so that no program waits for ever.
+// POLOHV_x is 1 until the axis has been positioned; the program ends the positioning by writing 0 (man. l.7964-7973).
+// If no device positions axes it stays 0, so that no program waits forever.
 void lowerToAxis(Lowering& l, std::span<const Operand> o, int) {
   ir::RungBuilder& b = l.b();
   DeviceRequest request(l);
@@ -93,8 +93,8 @@ void lowerToAxis(Lowering& l, std::span<const Operand> o, int) {
   setBitOfAxis(b, "PB20PI", "PB20PI2", axis, begins);
 }
 
-// One step of val towards DR in val's width; DR becomes val (man. l.8274-8299). The difference of two numbers of a
-// width fits the width without a sign.
+// Moves val one step towards DR, in val's width; DR becomes val (man. l.8274-8299). The difference of two numbers of
+// the same width fits into that width as an unsigned number.
 void lowerRamp(Lowering& l, std::span<const Operand> o, int) {
   ir::RungBuilder& b = l.b();
   const Type type = o[0].type;

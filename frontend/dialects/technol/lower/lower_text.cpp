@@ -13,7 +13,7 @@ using ir::ValueId;
 
 namespace {
 
-// One side of a comparison; beyond `room` its bytes count as 0.
+// One side of a comparison; bytes beyond `room` count as 0.
 struct Side {
   Area area;
   ValueId room;
@@ -26,7 +26,7 @@ ValueId byteOf(ir::RungBuilder& b, const Side& side, ValueId i) {
   return b.select(inside, loadByte(b, side.area, b.select(inside, i, b.i32(0))), zero);
 }
 
-// Two areas compared byte by byte. A common 0 ends texts.
+// Compares two areas byte by byte. With `texts`, a common 0 ends the comparison.
 void compare(Emitter& emitter, const Side& left, const Side& right, const Length& count, bool texts) {
   ir::RungBuilder& b = emitter.b();
   if (count.most == 0) return emitter.r().setRlo(b.bit(true));
@@ -40,7 +40,7 @@ void compare(Emitter& emitter, const Side& left, const Side& right, const Length
   emitter.r().setRlo(passWhile(b, count.most, b.bit(true), pass));
 }
 
-// Copies what is there and clears what is not.
+// Copies the bytes that exist and clears the rest of the target.
 void copyInside(Emitter& emitter, const Area& to, const Area& from, const Length& count) {
   ir::RungBuilder& b = emitter.b();
   const Length exist = inside(emitter, from, count);
@@ -50,7 +50,7 @@ void copyInside(Emitter& emitter, const Area& to, const Area& from, const Length
 
 } // namespace
 
-// The source comes first (man. l.1484, l.13540; one example has it the other way round).
+// The source is the first operand (man. l.1484, l.13540; one example has the opposite order).
 void lowerMoveMemory(Lowering& l, std::span<const Operand> o, int) {
   const bool isLong = !o[2].isConstant() || o[2].value > kManyPasses;
   inOwnRung(l.emitter.out(), isLong, [&] {
@@ -60,7 +60,7 @@ void lowerMoveMemory(Lowering& l, std::span<const Operand> o, int) {
   });
 }
 
-// From the first address up to the second, which is not cleared.
+// Clears from the first address up to the second, which is excluded.
 void lowerClear(Lowering& l, std::span<const Operand> o, int) {
   if (o[0].form == Operand::Form::Keyword) return l.clears.call(o[0].value == 0);
   l.emitter.out().cut();
@@ -75,8 +75,8 @@ void lowerClear(Lowering& l, std::span<const Operand> o, int) {
   l.emitter.out().cut();
 }
 
-// Ends with the terminator, which is copied too, where the target is full, or after `num` characters (man.
-// l.1720-1744). A source without a terminator has as many characters as it holds.
+// Copies until the terminator (inclusive), the end of the target, or `num` characters (man. l.1720-1744). A source
+// without a terminator has as many characters as it holds.
 void lowerCopyText(Lowering& l, std::span<const Operand> o, int) {
   inOwnRung(l.emitter.out(), anyIsLong(o), [&] {
     const Text to = textOf(l.memory, o[0]), from = textOf(l.memory, o[1]);
@@ -94,7 +94,7 @@ void lowerCopyText(Lowering& l, std::span<const Operand> o, int) {
   });
 }
 
-// The joined text is cut where the target is full (man. l.1746).
+// The joined text is cut off at the end of the target (man. l.1746).
 void lowerAddText(Lowering& l, std::span<const Operand> o, int) {
   inOwnRung(l.emitter.out(), anyIsLong(o), [&] {
     const Text to = textOf(l.memory, o[0]), from = textOf(l.memory, o[1]);
@@ -107,7 +107,7 @@ void lowerAddText(Lowering& l, std::span<const Operand> o, int) {
   });
 }
 
-// As many digits as the text has characters, the last ones of the number (man. l.1826).
+// Writes the last digits of the number, as many as the text has characters (man. l.1826).
 void lowerNumberToText(Lowering& l, std::span<const Operand> o, int bcd) {
   const Text text = textOf(l.memory, o[0]);
   ir::RungBuilder& b = l.b();
@@ -121,7 +121,8 @@ void lowerNumberToText(Lowering& l, std::span<const Operand> o, int bcd) {
   b.store({.space = text.area.space, .byte = text.area.first + text.most}, b.constant(Type::I8, 0));
 }
 
-// Up to a difference, a common terminator or `num` characters; the second text with its terminator (man. l.1860-1870).
+// Compares until a difference, a common terminator or `num` characters; the second text includes its terminator (man.
+// l.1860-1870).
 void lowerCompareText(Lowering& l, std::span<const Operand> o, int) {
   inOwnRung(l.emitter.out(), anyIsLong(o), [&] {
     const Text left = textOf(l.memory, o[0]), right = textOf(l.memory, o[1]);
@@ -131,7 +132,7 @@ void lowerCompareText(Lowering& l, std::span<const Operand> o, int) {
   });
 }
 
-// Terminators are bytes as any other; without `num` until the target is full (man. l.1911-1925).
+// Terminators count as ordinary bytes; if `num` is omitted, copying ends when the target is full (man. l.1911-1925).
 void lowerCopyBytes(Lowering& l, std::span<const Operand> o, int) {
   inOwnRung(l.emitter.out(), anyIsLong(o), [&] {
     const Text to = textOf(l.memory, o[0]), from = textOf(l.memory, o[1]);
@@ -140,7 +141,7 @@ void lowerCopyBytes(Lowering& l, std::span<const Operand> o, int) {
   });
 }
 
-// Without `num` as many bytes as the second text holds (man. l.1943-1953).
+// If `num` is omitted, compares as many bytes as the second text holds (man. l.1943-1953).
 void lowerCompareBytes(Lowering& l, std::span<const Operand> o, int) {
   inOwnRung(l.emitter.out(), anyIsLong(o), [&] {
     const Text left = textOf(l.memory, o[0]), right = textOf(l.memory, o[1]);

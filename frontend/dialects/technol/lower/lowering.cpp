@@ -1,4 +1,4 @@
-// The current statement.
+// Context of the current statement.
 #include "frontend/dialects/technol/lower/lowering.h"
 
 #include "frontend/dialects/technol/lower/lower.h"
@@ -38,7 +38,7 @@ ValueId Lowering::contact(const Operand& operand) {
 
 namespace {
 
-// What only joins values of the equation: LA, LO and LX, whose bits are contacts, and CA.
+// Whether the instruction only combines values of the equation: LA, LO and LX, whose bits are contacts, and CA.
 bool isLogic(const Row& row) {
   constexpr uint16_t kBoth = kReadsRlo | kSetsRlo;
   return (row.effects & kJoins) != 0 || (row.info.group == "bit logic" && (row.effects & kBoth) == kBoth);

@@ -1,4 +1,4 @@
-// Cells and bits.
+// Accesses to cells and bits.
 #include "frontend/dialects/technol/lower/memory.h"
 
 namespace rung::frontend::technol {
@@ -15,7 +15,7 @@ MemoryAccess Memory::reach(const Operand& operand, ValueId guard) {
   ValueId index = emitter_.r().bx();
   if (operand.scale != 1) index = b.mul(index, b.i32(operand.scale));
   if (operand.offset != 0 || emitter_.isCompared()) index = b.add(index, placeIn(operand, operand.offset));
-  // BX has 16 bits: addresses of a segment of 64 kB wrap around, so that an index may be negative.
+  // BX has 16 bits: addresses in a segment of 64 kB wrap around, which allows negative indices.
   if (bytes <= 0x10000) index = b.and_(index, b.i32(0xFFFF));
   access.window = {.space = operand.place.space, .byte = 0, .count = bytes >= width ? bytes - width + 1 : 0};
   access.index = index;
@@ -65,7 +65,7 @@ std::string instructionKey(const SourceProgram& program, const Statement& statem
   return key;
 }
 
-// The key names module, instruction and operands.
+// A slot whose key names module, instruction and operands.
 ir::SlotId State::newSlot(Type type, const Statement& statement, std::string_view what) {
   const std::string unit(program_.at(statement.unit).name);
   automatic_.push_back(emitter_.newSlot(type, names_.numbered(unit + "." + instructionKey(program_, statement, what))));

@@ -54,13 +54,13 @@ void Procedures::restoreRegisters() {
   emitter_.r().setBx(b.slotLoad(saved_[3]));
 }
 
-// Procedures and the ends of start and shutdown (man. ch. 3.17, 5.3).
+// Procedures, and the ends of start-up and shutdown (man. ch. 3.17, 5.3).
 
 using ir::ValueId;
 
 void lowerCall(Lowering& l, std::span<const Operand> o, int) { l.callProcedure(o[0].index); }
 
-// One bit a file: the host waits until all files that have the instruction have executed one (man. l.2571-2601).
+// Each file has one bit: the host waits until every file that has the instruction has executed it (man. l.2571-2601).
 void lowerFinished(Lowering& l, std::span<const Operand>, int cell) {
   const uint32_t file = l.statement().file;
   ir::Place at = place(static_cast<HostCell>(cell));

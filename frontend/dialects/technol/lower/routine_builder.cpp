@@ -12,11 +12,11 @@
 namespace rung::frontend::technol {
 namespace {
 
-constexpr uint32_t kMaxSourceLines = 100; // of one rung; beyond that its text is left out
+constexpr uint32_t kMaxSourceLines = 100; // per rung; the text of a longer rung is its first line
 
 } // namespace
 
-// A statement of a macro has its own text elsewhere; it counts in the line of the use.
+// Source position of a statement. A statement of a macro has the line of the macro's use.
 RungSource sourceOf(const SourceProgram& program, const Statement& statement) {
   const FileId own = program.files[statement.file].id;
   const LineCol at = program.sources.lineCol(statement.pos);
@@ -65,7 +65,7 @@ void RoutineBuilder::cut() {
   close();
 }
 
-// Title, text and key of the rung: the comment of its first line, and its lines.
+// Sets title (the comment of the first line), source text and key of the rung.
 void RoutineBuilder::describe() {
   if (first_.line == 0) return;
   const bool inOrder = lastLine_ >= first_.line && lastLine_ - first_.line < kMaxSourceLines;

@@ -1,4 +1,4 @@
-// Units that wait (see sequences.h).
+// Units that can wait (see sequences.h).
 #include "frontend/dialects/technol/lower/sequences.h"
 
 #include <algorithm>
@@ -74,7 +74,8 @@ void Sequences::end() {
     emitter_.b().store(bitOf(sequence.mechanism), emitter_.b().bit(false));
   storeState(sequence, emitter_.b().i32(0));
   storeLine(sequence, 0);
-  // What is cleared belongs to the instructions above: where versions are compared it is not part of the end.
+  // The cleared state belongs to the instructions above; if versions are compared it does not count as a difference of
+  // the end.
   if (!emitter_.isCompared()) clear(sequence.cells, sequence.tickets);
   if (sequence.mechanism == kNone && !sequence.tickets.empty() && !emitter_.isCompared()) clearAtBeginning(sequence);
   emitter_.out().cut();
@@ -94,8 +95,8 @@ void Sequences::clear(std::span<const CountCell> cells, std::span<const ir::Slot
   for (const ir::SlotId ticket : tickets) emitter_.b().slotStore(ticket, emitter_.b().i32(0));
 }
 
-// The control may give up a block and begin the next one: what a module asked for is of the former block. A module that
-// waits at its beginning has asked for nothing yet, but may have counted.
+// The control may abort a block and begin the next one: a pending request of the module then belongs to the old block,
+// so tickets are cleared at the module's beginning. A module that waits there has no request yet, but may have counted.
 void Sequences::clearAtBeginning(Sequence& sequence) {
   RoutineBuilder& out = emitter_.out();
   const uint32_t code = std::exchange(sequence.states[0], out.newLabel());
@@ -106,7 +107,7 @@ void Sequences::clearAtBeginning(Sequence& sequence) {
   out.jump(code);
 }
 
-// Only what the unit itself consists of counts, not a procedure inside it.
+// Only statements of the unit itself count, not those of a procedure inside it.
 void Sequences::pass(const Statement& statement) {
   if (open_.empty()) return;
   Sequence& s = open_.back();
@@ -122,7 +123,8 @@ uint32_t Sequences::newState(Sequence& sequence, std::string_view role) {
   return static_cast<uint32_t>(sequence.states.size()) - 1;
 }
 
-// A point is known by what leads to it: waiting there continues in a new program as long as that is the same.
+// A waiting point is identified by the instructions that lead to it: a new program continues there if these are the
+// same.
 void Sequences::addPoint(Sequence& sequence, std::string_view role) {
   std::string key = fmt::format("{}@{:016x}", sequence.instruction, sequence.section);
   sequence.sectionEnds = true;
@@ -169,7 +171,8 @@ void Sequences::initialise(uint32_t mechanism) {
     if (!kept.reset.valid()) kept.reset = emitter_.newRoutine("@MECH_INIT " + symbolKey(info.name));
     emitter_.out().call(kept.reset);
   }
-  emitter_.out().cut(); // also without a call: where rungs begin is not up to the timers of a mechanism elsewhere
+  emitter_.out()
+      .cut(); // also without a call, so that rung borders do not depend on the timers of a mechanism elsewhere
 }
 
 void Sequences::makeResets() {

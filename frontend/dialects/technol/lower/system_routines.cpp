@@ -1,4 +1,4 @@
-// Routines that the compiler makes.
+// Routines that the compiler generates.
 #include "frontend/dialects/technol/lower/system_routines.h"
 
 #include <string>
@@ -20,7 +20,7 @@ void Clears::call(bool global) {
   emitter_.out().call(routine);
 }
 
-// What lies together is cleared together.
+// Clears the data items; adjacent items are cleared together.
 void Clears::clearData(bool local) {
   uint32_t first = 0, end = 0;
   for (const DataItem& item : program_.declarations.items) {
@@ -34,7 +34,7 @@ void Clears::clearData(bool local) {
   clearRange(memory_, kDataSpace, first, end);
 }
 
-// Texts and structures get the contents again that they have when the machine is switched on (man. l.1533-1536).
+// Restores the contents that texts and structures have at power-on (man. l.1533-1536).
 void Clears::fillData() {
   const Declarations& declarations = program_.declarations;
   size_t item = 0;
@@ -55,8 +55,8 @@ void Clears::fillData() {
   }
 }
 
-// GLOBAL: the data of all files, mechanisms and timers. INTERNAL: the data of DATA_LOCAL and the cells that
-// instructions made for themselves (man. l.1533-1539).
+// GLOBAL clears the data of all files, mechanisms and timers; INTERNAL clears the data of DATA_LOCAL and the cells that
+// instructions allocate automatically (man. l.1533-1539).
 void Clears::make() {
   constexpr uint32_t kMechanismsPerRung = 16;
   for (const bool global : {true, false}) {
@@ -90,7 +90,7 @@ void makeStart(const SourceProgram& program, Emitter& emitter, ir::RoutineId rou
   emitter.close();
 }
 
-// RLO and DR come from the host.
+// Makes the routine of an event; the host sets RLO and DR.
 static Event makeEvent(Emitter& emitter, std::string name, ir::RoutineId procedure, Clocks& clocks) {
   const ir::RoutineId routine = emitter.newRoutine("@" + name);
   emitter.open(routine);
@@ -134,7 +134,7 @@ constexpr Preset kPowerOn[] = {
     {"SHIFT_ENABLE", 0x3F},         // man. l.11122
 };
 
-// Bits that are 1 at a start (man. l.6186, l.6316); `#` is the number of an axis.
+// Bits that are 1 after a start (man. l.6186, l.6316); `#` is the number of an axis.
 constexpr std::string_view kStart[] = {"MPXPI", "MPYPI", "MPZPI", "VAZBA_X", "VAZBA_Y", "VAZBA_Z"};
 constexpr std::string_view kStartOfAxes[] = {"MP#PI", "VAZBA_#"};
 constexpr int kFirstNumbered = 4, kLastAxis = 16;

@@ -1,4 +1,4 @@
-// The walk over a program's modules (see walk.h).
+// Visits the modules of a program and lowers them (see walk.h).
 #include "frontend/dialects/technol/lower/walk.h"
 
 #include "rtlib/nc/faults.h"
@@ -9,7 +9,7 @@ using ir::Type;
 
 namespace {
 
-// A rung of data instructions is cut at the next load when it has grown to this many statements.
+// A rung of data instructions with this many statements ends at the next load; kLongestRung ends it in any case.
 constexpr uint32_t kLongRung = 12;
 constexpr uint32_t kLongestRung = 48;
 
@@ -21,7 +21,7 @@ Walk::Walk(const TypedProgram& program, ir::Module& module, uint32_t periodUs, i
            ir::GivenNumbers* given)
     : program_(program), source_(program.source), l_(program, module, marks, given),
       start_(l_.emitter.newRoutine("@START")), clocks_(source_, l_.emitter, l_.state, periodUs) {
-  l_.emitter.fault(nc::kTechnolRequested); // by the control (man. l.5361)
+  l_.emitter.fault(nc::kTechnolRequested); // the control stops the program with this fault (man. l.5361)
 }
 
 LoweredProgram Walk::run() {
@@ -38,7 +38,7 @@ LoweredProgram Walk::run() {
 
 void Walk::module(ModuleKind kind) {
   kind_ = kind;
-  // The end of the shutdown may be pending in a program without MODULE_DONE.
+  // A program without MODULE_DONE may still have to report the end of the shutdown.
   bool present = kind == ModuleKind::Done && source_.filesWith(&SourceFile::finishesDone) != 0;
   for (const ModulePart& p : source_.parts) present = present || p.kind == kind;
   if (!present) return;
@@ -52,7 +52,7 @@ void Walk::module(ModuleKind kind) {
   made_.modules.push_back({kind, routine, weight});
 }
 
-// What the compiler adds before a module.
+// Code that the compiler adds before a module.
 void Walk::prologue(ModuleKind kind) {
   if (kind == ModuleKind::Init) l_.emitter.out().call(start_);
   if (kind == ModuleKind::Done) {
@@ -63,7 +63,8 @@ void Walk::prologue(ModuleKind kind) {
   clocks_.enter(kind);
 }
 
-// RLO and DR are 0 where the manual leaves them open; INIT and DONE learn in DR why they run (man. l.2567, l.2613).
+// RLO and DR are 0 if the manual leaves them undefined; INIT and DONE get the reason for their run in DR (man. l.2567,
+// l.2613).
 void Walk::enterPart(const ModulePart& part) {
   Statement begin{.pos = source_.at(part.unit).begin.begin, .file = part.file};
   begin.line = source_.sources.lineCol(begin.pos).line;
@@ -102,7 +103,7 @@ void Walk::statement(uint32_t index) {
   case Role::ProcEnd: l_.emitter.close(); return;
   case Role::Timed: return beginTimed(statement, typed);
   case Role::MacroBegin: return l_.useStack();
-  default: return; // nothing that runs
+  default: return; // not executed
   }
 }
 
@@ -117,7 +118,7 @@ void Walk::code(const Typed& typed) {
   l_.marking.result(statement, rung);
 }
 
-// An equation begins its own rung; long runs of data instructions are cut where a value is loaded.
+// An equation begins a rung of its own; long runs of data instructions are split where a value is loaded.
 void Walk::beginRungFor(const Typed& typed) {
   const uint32_t length = l_.emitter.out().length();
   const bool loads = (l_.statement().row->effects & kPushes) != 0 || l_.mnemonic() == "LOD";
@@ -137,7 +138,7 @@ void Walk::beginMechanism(const Statement& statement) {
   l_.sequences.beginMechanism(source_.at(statement.unit).index, statement.unit);
 }
 
-// The normal flow passes a definition by (man. l.1588-1603): its rungs are a routine of their own.
+// Lowers a procedure to a routine of its own: the normal flow skips the definition (man. l.1588-1603).
 void Walk::beginProcedure(const Statement& statement) {
   l_.emitter.out().cut();
   l_.emitter.open(l_.procedures.routine(source_.at(statement.unit).index));

@@ -42,7 +42,7 @@ public:
   }
 
 private:
-  // Regions of one kind. A second begin inside a region is always an error; the number of ends in the unit tells
+  // Regions of one kind. A second begin inside a region is always an error; the number of ends in the unit shows
   // whether an end was forgotten or the regions are nested.
   struct Kind {
     Control opens;

@@ -66,7 +66,7 @@ public:
   }
   // Whether a jump can skip `network`.
   bool canPass(uint32_t network) const { return cover_[network] != kNone; }
-  // Whether a jump behind `from` can skip `network`.
+  // Whether a jump after `from` can skip `network`.
   bool canPass(uint32_t from, uint32_t network) const { return canPass(network) && cover_[network] > from; }
 
 private:
@@ -106,8 +106,7 @@ private:
   const Language& language_;
   Diagnostics& diagnostics_;
   const Program& program_;
-  std::map<Bit, bool>
-      bits_; // bits with several coils, at least one of them an OUT; the value: whether anything reads the bit
+  std::map<Bit, bool> bits_; // bits with several coils, one an OUT at least; value: whether anything reads the bit
   std::vector<Effects> effects_;
   std::map<Bit, State> states_; // of the unit being walked
   const Flow* flow_ = nullptr;

@@ -196,8 +196,7 @@ bool ParameterCheck::lost(const Word& word, const Param& param) {
 
 bool ParameterCheck::checkValue(const OperandInfo& info, const Word& word, Param& param) {
   const OperandKind& kind = *param.kind;
-  if (kind.constant && kind.address && !lengthKnown_)
-    return false; // it is unknown whether a constant or an address is expected
+  if (kind.constant && kind.address && !lengthKnown_) return false; // the format, which decides, is not known
   const bool isConstant = kind.constant && (!kind.address || constantOperand_);
   return isConstant ? checkConstant(word, param) : checkAddress(info, word, param);
 }

@@ -9,7 +9,7 @@ using ir::ValueId;
 
 Type doubled(const Lowering& f) { return ir::intOfBytes(2 * f.function.length); }
 
-// P22: bit 0 zero, bit 1 negative, bit 5 overflow; the whole byte is rewritten. An invalid id stands for 0.
+// P22: bit 0 zero, bit 1 negative, bit 5 overflow; the whole byte is rewritten. An invalid id means 0.
 void storeFlags(Lowering& f, ValueId zero, ValueId negative, ValueId overflow) {
   ir::RungBuilder& b = f.b;
   ValueId byte = b.constant(Type::I8, 0);

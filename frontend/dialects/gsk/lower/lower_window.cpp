@@ -35,7 +35,7 @@ private:
   ir::SlotId ticket() { return f_.slot("ticket", Type::I32); }
   ir::SlotId length() { return f_.slot("length", Type::I16); }
   // One lock for all low-speed functions of the program. The instruction that holds it has a state other than idle:
-  // when a program is replaced, the key tells that a removed instruction held the lock (rtlib/change/state_transfer.h).
+  // when a program is replaced, the key shows that a removed instruction held the lock (rtlib/change/state_transfer.h).
   static constexpr const char* kLock = "@window/lock";
   ir::SlotId lock() { return f_.shared(kLock, Type::Bit); }
   ir::SlotId state() { return f_.slot(std::string("state") + kLock, Type::I8); }

@@ -25,7 +25,7 @@ ValueId binary(Lowering& box, Compute compute) {
   });
 }
 
-// An invalid id stands for 0.
+// An invalid id means 0.
 struct ArithmeticFlags {
   ValueId error;
   ValueId under;

@@ -409,7 +409,7 @@ bool OperandParser::read(const MemoryKind& kind, const OperandInfo& info, Tokens
   return setPlace(address, address.byte, bytes, out) && checkWrite(info, address.protection, address.name, out.range);
 }
 
-// Operands that are variables of MAP_* and DEF_*, or bits that stand for their bit number.
+// Operands that are variables of MAP_* and DEF_*, or bits whose numbers are meant.
 
 // Whether the operand is NAME or NAME[n].
 bool OperandParser::isVariable(const OperandInfo& info, bool mayBeIndexed, std::span<const Token> tokens,

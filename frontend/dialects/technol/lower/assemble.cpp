@@ -114,7 +114,7 @@ std::string inFile(const SourceProgram& program, const Symbol& symbol, const std
   return std::string(path) + ":" + name;
 }
 
-// Adds the local symbols of macro uses under a name that all uses share; the preceding symbols tell which use it is.
+// Adds the local symbols of macro uses under a name that all uses share; the preceding symbols show which use it is.
 void addOfUses(const TypedProgram& program, ir::Module& module) {
   for (const Symbol& symbol : program.symbols.all()) {
     if (!isOfUse(symbol) || !hasSymbol(symbol)) continue;

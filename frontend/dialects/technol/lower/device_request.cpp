@@ -91,7 +91,7 @@ const Operand* lengthIn(std::span<const OperandInfo> infos, std::span<const Oper
 }
 
 // The address and size of an area as one argument. The number of a space with a text depends on the texts before it;
-// where the area begins tells which one it is.
+// where the area begins shows which one it is.
 ValueId bytesArgument(Emitter& emitter, const Area& area, ValueId count) {
   ir::RungBuilder& b = emitter.b();
   const ValueId fixed = emitter.given(Type::I64, nc::technol::bytesArgument(area.space.index, 0, 0));

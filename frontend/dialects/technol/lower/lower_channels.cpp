@@ -29,7 +29,7 @@ Area dataOf(ir::RungBuilder& b, const Area& packet) { return shifted(b, packet, 
 
 } // namespace
 
-// Sends a packet of at most 8 bytes; a larger length counts as 8. DR tells whether the queue accepted it (man.
+// Sends a packet of at most 8 bytes; a larger length counts as 8. DR says whether the queue accepted it (man.
 // l.3709-3742).
 void lowerCanSend(Lowering& l, std::span<const Operand> o, int) {
   ir::RungBuilder& b = l.b();

@@ -111,7 +111,7 @@ void getText(Lowering& l, std::span<const Operand> o, Kind kind) {
 
 } // namespace
 
-// CNF_GET_xx target, identifier [, default] and CONST_GET cell, identifier: RLO tells whether it was found.
+// CNF_GET_xx target, identifier [, default] and CONST_GET cell, identifier: RLO says whether it was found.
 void lowerConfiguration(Lowering& l, std::span<const Operand> o, int kind) {
   const auto wanted = static_cast<Kind>(kind);
   if (wanted != Kind::Text && wanted != Kind::Binary) return getValue(l, o, wanted);

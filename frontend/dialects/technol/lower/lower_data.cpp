@@ -187,7 +187,7 @@ void lowerMovBx(Lowering& l, std::span<const Operand>, int) {
 using ir::Type;
 using ir::ValueId;
 
-// RLO = 0 clears the count; otherwise it counts up to the preset in DR, and RLO tells whether it has reached it (man.
+// RLO = 0 clears the count; otherwise it counts up to the preset in DR, and RLO says whether it has reached it (man.
 // l.884-916).
 void lowerTimer(Lowering& l, std::span<const Operand> o, int) {
   ir::RungBuilder& b = l.b();
@@ -209,7 +209,7 @@ void lowerTimer(Lowering& l, std::span<const Operand> o, int) {
   l.r().setRlo(b.choose(rlo, run, clear));
 }
 
-// Counts rising edges of RLO; then RLO tells whether the count equals the preset in DR, and DR is the count (man.
+// Counts rising edges of RLO; then RLO says whether the count equals the preset in DR, and DR is the count (man.
 // l.955-977).
 void lowerCounter(Lowering& l, std::span<const Operand> o, int kind) {
   ir::RungBuilder& b = l.b();

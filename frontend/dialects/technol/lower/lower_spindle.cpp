@@ -11,7 +11,7 @@ namespace {
 
 constexpr int64_t kPorts = 16; // number of analogue outputs (man. l.7730)
 
-// Stores an output. It takes effect at once (inventory of the services, 4): the answer tells the port and its value.
+// Stores an output. It takes effect at once (inventory of the services, 4): the answer reports the port and its value.
 void storeOutput(ir::RungBuilder& b, DeviceRequest& request) {
   const nc::Signal& outputs = interfaceSignal("SU_OUT_PLC");
   const ValueId number = b.sub(request.result("port"), b.constant(Type::I64, 1));

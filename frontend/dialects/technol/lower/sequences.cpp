@@ -1,4 +1,4 @@
-// Units that can wait (see sequences.h).
+// Units that wait (see sequences.h).
 #include "frontend/dialects/technol/lower/sequences.h"
 
 #include <algorithm>
@@ -171,8 +171,7 @@ void Sequences::initialise(uint32_t mechanism) {
     if (!kept.reset.valid()) kept.reset = emitter_.newRoutine("@MECH_INIT " + symbolKey(info.name));
     emitter_.out().call(kept.reset);
   }
-  emitter_.out()
-      .cut(); // also without a call, so that rung borders do not depend on the timers of a mechanism elsewhere
+  emitter_.out().cut(); // even without a call: rung borders must not depend on the timers of another mechanism
 }
 
 void Sequences::makeResets() {

@@ -183,8 +183,8 @@ bool FileReader::includes(const SourceLine& line, uint32_t depth) {
   return true;
 }
 
-// Reads an included file. Errors in it are reported at the first inclusion; a second inclusion is an error if it
-// declares names again.
+// Reads an included file. Errors in it are reported at its first inclusion, names that a further inclusion declares
+// again at that inclusion.
 void FileReader::readIncluded(const IncludedFile& file, SourceRange at, uint32_t depth) {
   if (!file.again) c_.includes.emplace(file.path, readable(c_.sources, *file.id, c_.diagnostics));
   const auto text = c_.includes.at(file.path);

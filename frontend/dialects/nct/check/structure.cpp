@@ -114,7 +114,7 @@ private:
     diagnostics_.report(diag::LabelConflict, range).note(other, "the other use") << number;
   }
 
-  // Records an END. `bad`: it is in the wrong place, so the rungs after it are not checked against it.
+  // Records an END. `bad`: it may be in the wrong place, so code after it is not reported.
   void end(SourceRange range, bool bad) {
     if (ended_) {
       diagnostics_.report(diag::DuplicateEnd, range).note(endRange_, "the first one");

@@ -77,9 +77,9 @@ private:
     return chance(2) ? nullptr : kNames[below(std::size(kNames))];
   }
   template <class Struct>
-  Struct sized() {
-    Struct out{};
-    out.size = chance(90) ? sizeof out : below(2 * sizeof out);
+  std::array<Struct, 2> sized() {
+    std::array<Struct, 2> out{}; // its `size` may say that there is more than one
+    out[0].size = chance(90) ? sizeof(Struct) : below(2 * sizeof(Struct));
     return out;
   }
   template <class T>
@@ -149,9 +149,9 @@ private:
     case 30: return withStruct<rung_request>([&](rung_request* s) { return rung_instance_next_request(plc, s); });
     case 31: {
       auto reply = sized<rung_reply>();
-      reply.ticket = number();
-      reply.result_count = number();
-      return rung_instance_answer(plc, place(reply));
+      reply[0].ticket = number();
+      reply[0].result_count = number();
+      return rung_instance_answer(plc, place(reply[0]));
     }
     case 32:
       return rung_instance_begin_function(plc, number(), static_cast<int32_t>(number()), number(), place(cells[0]));
@@ -182,17 +182,16 @@ private:
 
   template <class Struct, class Use>
   int32_t withStruct(Use use) {
-    std::array<Struct, 2> out{}; // `size` may say that there is more than one
-    out[0] = sized<Struct>();
+    std::array<Struct, 2> out = sized<Struct>();
     return use(place(out[0]));
   }
 
   int32_t make() {
     if (instances_.size() >= 3) return RUNG_OK;
     auto options = sized<rung_instance_options>();
-    options.flags = below(4);
+    options[0].flags = below(4);
     rung_instance* made = nullptr;
-    const int32_t status = rung_instance_new(image(), chance(50) ? &options : nullptr, place(made));
+    const int32_t status = rung_instance_new(image(), chance(50) ? options.data() : nullptr, place(made));
     if (made != nullptr) instances_.push_back(made);
     return status;
   }

@@ -92,17 +92,22 @@ private:
   void readable(const char* table, uint32_t number, const char* text) {
     if (file_ != nullptr && !file_->holdsText(text)) failAt(table, number, "has a text that is not in the file");
   }
+  // Whether the file has these entries, where entries of their type may lie.
+  template <class T>
+  bool holds(const T* entries, uint64_t count) const {
+    if (file_ == nullptr) return true;
+    return reinterpret_cast<uintptr_t>(entries) % alignof(T) == 0 && file_->holds(entries, count * sizeof(T));
+  }
   // Checks the location of entries outside the program's own table.
   template <class T>
   void held(const char* table, uint32_t number, const T* entries, uint64_t count) {
-    if (file_ != nullptr && !file_->holds(entries, count * sizeof(T)))
-      failAt(table, number, "has entries that are not in the file");
+    if (!holds(entries, count)) failAt(table, number, "has entries that are not in the file");
   }
 
   // ---- head --------------------------------------------------------------------------------------------------------
 
   void checkHead() {
-    if (file_ != nullptr && !file_->holds(&p_, sizeof p_)) return fail("the program's description is not whole");
+    if (!holds(&p_, 1)) return fail("the program's description is not whole");
     if (p_.abi_version != RUNG_ABI_VERSION)
       return fail("the program has ABI version ", p_.abi_version, ", this runtime has ", RUNG_ABI_VERSION);
     if (p_.size < sizeof(rung_program))
@@ -126,8 +131,7 @@ private:
   void present(const char* what, uint32_t count, const T* table) {
     if (count == 0) return;
     if (table == nullptr) return fail("the table of ", what, " is missing, it has ", count, " entries");
-    if (file_ != nullptr && !file_->holds(table, uint64_t{count} * sizeof(T)))
-      fail("the table of ", what, " is not in the file, it has ", count, " entries");
+    if (!holds(table, count)) fail("the table of ", what, " is not in the file, it has ", count, " entries");
   }
 
   void checkPresence() {

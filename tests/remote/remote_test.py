@@ -565,7 +565,7 @@ class Profile(Host):
         self.ctl("profile", "--top", "0", status=USAGE)
 
 
-class Reals(Host):
+class HostWithReals(Host):
     """A double of NCT in two words: it has a name that everything takes."""
     program_text = "dialect nct\nmodule MAIN\nsymbol SPEED 7002\nrung\n|--[7100.00]--{+F SPEED SPEED *0.5}\n"
     source_name = "stuck.lad"
@@ -577,6 +577,8 @@ permissions = ["set", "force"]
 protected = ["REAL.7020"]
 """
 
+
+class Reals(HostWithReals):
     def test_set_and_get(self):
         self.assertEqual(self.ctl("set", "REAL.7000", "2.5"), "REAL.7000 = 2.5 (was 0.0)\n")
         self.assertEqual(self.ctl("get", "7000", "7001", "REAL.7000"), f"7000 = 0\n7001 = {0x40040000}\nREAL.7000 = 2.5\n")
@@ -598,15 +600,6 @@ protected = ["REAL.7020"]
         self.assertIn("7021 is protected by the mapping file", self.ctl("set", "7021", "1", status=WRONG))
         self.assertIn("setting it has no effect", self.ctl("set", "REAL.7010", "1", status=WRONG))
 
-    def test_forces(self):
-        self.ctl("force", "REAL.SPEED", "0.25")
-        self.ctl("set", "7100.00", "1")
-        self.pass_by(3)
-        self.assertEqual(self.get("REAL.SPEED"), 0.25)
-        self.assertRegex(self.ctl("forced"), r"^REAL\.SPEED = 0\.25, by ")
-        self.ctl("unforce", "REAL.SPEED")
-        self.wait(lambda: self.get("REAL.SPEED") > 1)
-
     def test_traces(self):
         out = self.home / "trace.vcd"
         tracing = self.trace(out, "REAL.SPEED", "SPEED")
@@ -626,6 +619,17 @@ protected = ["REAL.7020"]
         self.assertRegex(watching.stdout.readline(), r"^[\d.]+ REAL\.SPEED = -2\.0\n$")
         watching.send_signal(signal.SIGINT)
         self.assertEqual(watching.wait(patience()), OK)
+
+
+class ForcedReals(HostWithReals):
+    def test_forces(self):
+        self.ctl("force", "REAL.SPEED", "0.25")
+        self.ctl("set", "7100.00", "1")
+        self.pass_by(3)
+        self.assertEqual(self.get("REAL.SPEED"), 0.25)
+        self.assertRegex(self.ctl("forced"), r"^REAL\.SPEED = 0\.25, by ")
+        self.ctl("unforce", "REAL.SPEED")
+        self.wait(lambda: self.get("REAL.SPEED") > 1)
 
 
 class Alarms(Host):

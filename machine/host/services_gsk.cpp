@@ -9,11 +9,11 @@
 namespace rung::host {
 namespace {
 
-using nc::gsk::ServiceKind;
-using nc::gsk::WindowAccess;
 using nc::gsk::WindowEnd;
-using nc::gsk::WindowField;
-using nc::gsk::WindowFunction;
+using nc::pmc::ServiceKind;
+using nc::pmc::WindowAccess;
+using nc::pmc::WindowField;
+using nc::pmc::WindowFunction;
 
 enum Code : uint16_t { // codes of functions
   kReadOffset = 1,
@@ -40,7 +40,13 @@ ServiceKind kindOf(const rung_request& request) noexcept { return static_cast<Se
 Window windowOf(const rung_request& request) noexcept {
   const bool write = kindOf(request) == ServiceKind::WriteWindow;
   const auto at = [&](size_t i) { return static_cast<uint64_t>(request.args[i]); };
-  return {write, at(0), at(1), at(2), at(3), write ? request.args[4] : 0, nc::gsk::findWindowFunction(at(0))};
+  return {write,
+          at(0),
+          at(1),
+          at(2),
+          at(3),
+          write ? request.args[4] : 0,
+          nc::pmc::findWindowFunction(nc::gsk::windowFunctions(), at(0))};
 }
 
 bool fits(double value, uint64_t length) noexcept {
@@ -64,7 +70,7 @@ rung_reply given(const Window& window, uint32_t ticket, double value) noexcept {
 }
 
 bool isOutside(const WindowField& field, uint64_t value) noexcept {
-  return !field.meaning.empty() && (value < field.min || (field.max != nc::gsk::kNoLimit && value > field.max));
+  return !field.meaning.empty() && (value < field.min || (field.max != nc::pmc::kNoLimit && value > field.max));
 }
 
 // Checks in the order of the end codes.
@@ -72,7 +78,7 @@ WindowEnd mistakeOf(const Window& w) noexcept {
   const WindowFunction* f = w.function;
   if (f == nullptr || (f->access == WindowAccess::Write) != w.write) return nc::gsk::kWindowBadFunction;
   if (!nc::gsk::isWindowLength(w.length)) return nc::gsk::kWindowBadLength;
-  if (f->status != nc::gsk::WindowStatus::Open) return nc::gsk::kWindowNotProvided;
+  if (f->status != nc::pmc::WindowStatus::Open) return nc::gsk::kWindowNotProvided;
   if (isOutside(f->number, w.number)) return nc::gsk::kWindowBadCount;
   if (isOutside(f->attribute, w.attribute)) return nc::gsk::kWindowBadAttribute;
   const bool whole = !f->wholeOnly || w.data % f->scale == 0;
@@ -125,34 +131,34 @@ std::optional<Operation> moveOf(const int64_t* args) noexcept {
                  .untilOver = true};
   const auto turns = static_cast<double>(static_cast<int16_t>(args[2]));
   switch (args[1]) {
-  case nc::gsk::kAxisStop: move.motion = MotionKind::Stop; break;
-  case nc::gsk::kAxisRapid:
-  case nc::gsk::kAxisFeed: move.motion = MotionKind::By; break;
-  case nc::gsk::kAxisMachineCoordinate: move.motion = MotionKind::At; break;
-  case nc::gsk::kAxisManualReturn: move.speed = 0; [[fallthrough]]; // the speed is parameter 1428 of the control
-  case nc::gsk::kAxisReference1:
+  case nc::pmc::kAxisStop: move.motion = MotionKind::Stop; break;
+  case nc::pmc::kAxisRapid:
+  case nc::pmc::kAxisFeed: move.motion = MotionKind::By; break;
+  case nc::pmc::kAxisMachineCoordinate: move.motion = MotionKind::At; break;
+  case nc::pmc::kAxisManualReturn: move.speed = 0; [[fallthrough]]; // the speed is parameter 1428 of the control
+  case nc::pmc::kAxisReference1:
     move.motion = MotionKind::Home;
     move.value = 0;
     break;
-  case nc::gsk::kAxisContinuous:
+  case nc::pmc::kAxisContinuous:
     move.motion = MotionKind::Jog;
     move.value = (args[3] & 1) != 0 ? -1 : 1;
     break;
-  case nc::gsk::kAxisSpeed:
+  case nc::pmc::kAxisSpeed:
     move.motion = MotionKind::Jog;
     move.value = turns < 0 ? -1 : 1;
     move.speed = std::fabs(turns) * 360;
     break;
   default: return std::nullopt;
   }
-  const bool needsSpeed = move.motion != MotionKind::Stop && args[1] != nc::gsk::kAxisManualReturn;
+  const bool needsSpeed = move.motion != MotionKind::Stop && args[1] != nc::pmc::kAxisManualReturn;
   return needsSpeed && move.speed == 0 ? std::nullopt : std::optional(move);
 }
 
 int32_t windowAtOnce(const rung_request& request, const Live& live, rung_reply& reply) noexcept {
   const Window window = windowOf(request);
   const WindowEnd mistake = mistakeOf(window);
-  if (mistake == nc::gsk::kWindowDone && window.function->speed == nc::gsk::WindowSpeed::Low) return RUNG_QUEUE;
+  if (mistake == nc::gsk::kWindowDone && window.function->speed == nc::pmc::WindowSpeed::Low) return RUNG_QUEUE;
   if (mistake == nc::gsk::kWindowDone && !live.known.load(std::memory_order_acquire)) return RUNG_REFUSE;
   reply = mistake == nc::gsk::kWindowDone ? highSpeed(window, request.ticket, live)
                                           : ended(window, request.ticket, mistake);

@@ -73,17 +73,17 @@ void pins(ReferencePage& page) {
                row.info.output == frontend::Output::None ? "closes its rung" : "at least one coil");
 }
 
-std::string fieldText(const nc::gsk::WindowField& field) {
+std::string fieldText(const nc::pmc::WindowField& field) {
   if (field.meaning.empty()) return "-";
-  if (field.max == nc::gsk::kNoLimit) return std::string(field.meaning);
+  if (field.max == nc::pmc::kNoLimit) return std::string(field.meaning);
   return fmt::format("{}, {} to {}", field.meaning, field.min, field.max);
 }
 
-std::string_view statusText(nc::gsk::WindowStatus status) {
+std::string_view statusText(nc::pmc::WindowStatus status) {
   switch (status) {
-  case nc::gsk::WindowStatus::Open: return "open";
-  case nc::gsk::WindowStatus::ClosedInList: return "not open: end code 6 at once";
-  case nc::gsk::WindowStatus::ClosedInSection: return "not open yet: the CNC decides";
+  case nc::pmc::WindowStatus::Open: return "open";
+  case nc::pmc::WindowStatus::ClosedInList: return "not open: end code 6 at once";
+  case nc::pmc::WindowStatus::ClosedInSection: return "not open yet: the CNC decides";
   }
   return "";
 }
@@ -95,20 +95,20 @@ void windowFunctions(ReferencePage& page) {
                   "+{} length L of the data (1, 2 or 4 bytes), +{} number M, +{} attribute N, +{} data "
                   "(signed). End codes: 0 done, 1 unknown function, 2 length, 3 number, 4 attribute, 5 data, 6 "
                   "not provided, 7 write-protected. Manual: l.8482-8945.",
-                  nc::gsk::kWindowFunctionAt, nc::gsk::kWindowEndAt, nc::gsk::kWindowLengthAt, nc::gsk::kWindowNumberAt,
-                  nc::gsk::kWindowAttributeAt, nc::gsk::kWindowDataAt),
+                  nc::pmc::kWindowFunctionAt, nc::pmc::kWindowEndAt, nc::pmc::kWindowLengthAt, nc::pmc::kWindowNumberAt,
+                  nc::pmc::kWindowAttributeAt, nc::pmc::kWindowDataAt),
       "code | function | access | speed | state | number M | attribute N | data | manual");
-  for (const nc::gsk::WindowFunction& f : nc::gsk::windowFunctions()) {
+  for (const nc::pmc::WindowFunction& f : nc::gsk::windowFunctions()) {
     const std::string data =
         f.scale == 0 ? "-" : fmt::format("value x {}{}", f.scale, f.wholeOnly ? ", whole values only" : "");
-    page.row(f.code, f.title, f.access == nc::gsk::WindowAccess::Read ? "WINDR" : "WINDW",
-             f.speed == nc::gsk::WindowSpeed::High ? "high" : "low", statusText(f.status), fieldText(f.number),
+    page.row(f.code, f.title, f.access == nc::pmc::WindowAccess::Read ? "WINDR" : "WINDW",
+             f.speed == nc::pmc::WindowSpeed::High ? "high" : "low", statusText(f.status), fieldText(f.number),
              fieldText(f.attribute), data,
              fmt::format("l.{}{}", f.listLine, f.line == 0 ? "" : fmt::format(", {} (l.{})", f.section, f.line)));
   }
 }
 
-std::string fieldText(const nc::gsk::AxisField& field) {
+std::string fieldText(const nc::pmc::AxisField& field) {
   if (field.meaning.empty()) return "-";
   std::string text(field.meaning);
   if (!field.unit.empty()) text += fmt::format(", {}", field.unit);
@@ -116,11 +116,11 @@ std::string fieldText(const nc::gsk::AxisField& field) {
   return text;
 }
 
-std::string_view bufferingText(nc::gsk::AxisBuffering buffering) {
+std::string_view bufferingText(nc::pmc::AxisBuffering buffering) {
   switch (buffering) {
-  case nc::gsk::AxisBuffering::Buffered: return "yes, unless EMCUF is 1";
-  case nc::gsk::AxisBuffering::Alone: return "no";
-  case nc::gsk::AxisBuffering::Immediate: return "no: takes effect at once, ends with ECLR";
+  case nc::pmc::AxisBuffering::Buffered: return "yes, unless EMCUF is 1";
+  case nc::pmc::AxisBuffering::Alone: return "no";
+  case nc::pmc::AxisBuffering::Immediate: return "no: takes effect at once, ends with ECLR";
   }
   return "";
 }
@@ -130,15 +130,15 @@ void axisCommands(ReferencePage& page) {
       "PLC axis commands",
       fmt::format("Block of AXLCTL, {} bytes: +{} command code (bit 7 is EMSBK), +{} data 1 (2 bytes), +{} data "
                   "2 (4 bytes). Manual: l.3241-3393, 7566-8480.",
-                  nc::gsk::kAxisBlockBytes, nc::gsk::kAxisCommandAt, nc::gsk::kAxisData1At, nc::gsk::kAxisData2At),
+                  nc::pmc::kAxisBlockBytes, nc::pmc::kAxisCommandAt, nc::pmc::kAxisData1At, nc::pmc::kAxisData2At),
       "code | command | data 1 | data 2 | buffered | manual");
-  for (const nc::gsk::AxisCommand& c : nc::gsk::axisCommands())
+  for (const nc::pmc::AxisCommand& c : nc::gsk::axisCommands())
     page.row(fmt::format("{} (0x{:02X})", c.code, c.code), c.title, fieldText(c.data1), fieldText(c.data2),
              bufferingText(c.buffering), fmt::format("l.{}", c.line));
   page.section("", "", "group | number | control | block | status | strobes | M code | feed override");
   const auto in = [](char area, uint32_t byte) { return fmt::format("{}{}", area, byte); };
   uint32_t number = 0;
-  for (const nc::gsk::AxisGroup& g : nc::gsk::axisGroups())
+  for (const nc::pmc::AxisGroup& g : nc::gsk::axisGroups())
     page.row(g.letter, ++number, in('G', g.control), in('G', g.command) + " to " + in('G', g.command + 6),
              in('F', g.status), in('F', g.strobes), in('F', g.code),
              g.feedOverride == 0 ? "-" : in('G', g.feedOverride));

@@ -5,9 +5,10 @@
 #include <cstdio>
 
 #include "rtlib/load/program_info.h"
-#include "rtlib/nc/control/gsk/gsk_control.h"
 #include "rtlib/nc/control/nct/nct_control.h"
+#include "rtlib/nc/control/pmc/pmc_control.h"
 #include "rtlib/nc/control/technol/technol_control.h"
+#include "rtlib/nc/gsk/model.h"
 #include "rtlib/nc/names/names.h"
 
 namespace rung::nc {
@@ -61,7 +62,7 @@ std::string Control::text(const ShownMessage& message) const {
 }
 
 std::unique_ptr<Control> makeControl(std::string_view dialect) {
-  if (dialect == "gsk") return std::make_unique<GskControl>();
+  if (dialect == "gsk") return std::make_unique<PmcControl>(gsk::model());
   if (dialect == "nct") return std::make_unique<NctControl>();
   if (dialect == "technol") return std::make_unique<TechnolControl>();
   return std::make_unique<Control>();

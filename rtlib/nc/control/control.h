@@ -86,7 +86,8 @@ inline constexpr size_t kMessageLine = 400;
 
 // Control: the part of a CNC's software that surrounds its PLC program on any machine: power-on and power-off, signals
 // on which the program relies (clocks, first cycle, "ready"), messages, retained cells, names. There is one class for
-// each dialect (gsk/, nct/, technol/), used by hosts that drive a real machine and by the simulation.
+// each dialect (nct/, technol/) or family of dialects (pmc/), used by hosts that drive a real machine and by the
+// simulation.
 //
 // A control belongs to one instance and to its thread. The functions called during scans (hooks, accept, describe,
 // afterSlice) allocate nothing, take no lock and never block; the others are called at start and end and for the

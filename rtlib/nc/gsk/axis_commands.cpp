@@ -1,12 +1,12 @@
 // Commands and groups of PLC axis control (see axis_commands.h).
 #include "rtlib/nc/gsk/axis_commands.h"
 
-#include <algorithm>
 #include <iterator>
 
 namespace rung::nc::gsk {
 namespace {
 
+using namespace pmc;
 using enum AxisBuffering;
 
 constexpr AxisField kNone = {};
@@ -48,7 +48,7 @@ constexpr bool isSound() {
 }
 static_assert(isSound(), "an axis command is out of order");
 
-constexpr AxisGroup kGroups[kAxisGroups] = {
+constexpr AxisGroup kGroups[] = {
     {'A', 142, 143, 130, 131, 132, 150, 151}, {'B', 154, 155, 133, 134, 135, 162, 163},
     {'C', 166, 167, 136, 137, 138, 174, 175}, {'D', 178, 179, 139, 140, 141, 186, 0},
     {'E', 187, 188, 142, 143, 144, 0, 0},     {'F', 196, 197, 145, 146, 147, 0, 0},
@@ -57,13 +57,8 @@ constexpr AxisGroup kGroups[kAxisGroups] = {
 
 } // namespace
 
-std::span<const AxisCommand> axisCommands() { return kCommands; }
+std::span<const pmc::AxisCommand> axisCommands() { return kCommands; }
 
-const AxisCommand* findAxisCommand(uint64_t code) {
-  const auto found = std::ranges::lower_bound(kCommands, code, {}, &AxisCommand::code);
-  return found != std::end(kCommands) && found->code == code ? &*found : nullptr;
-}
-
-std::span<const AxisGroup> axisGroups() { return kGroups; }
+std::span<const pmc::AxisGroup> axisGroups() { return kGroups; }
 
 } // namespace rung::nc::gsk

@@ -7,6 +7,7 @@
 namespace rung::nc::gsk {
 namespace {
 
+using namespace pmc;
 using enum WindowAccess;
 using enum WindowSpeed;
 using enum WindowStatus;
@@ -108,11 +109,6 @@ static_assert(isSound(), "a window function is out of order or lacks its place i
 
 } // namespace
 
-std::span<const WindowFunction> windowFunctions() { return kFunctions; }
-
-const WindowFunction* findWindowFunction(uint64_t code) {
-  const auto found = std::ranges::lower_bound(kFunctions, code, {}, &WindowFunction::code);
-  return found != std::end(kFunctions) && found->code == code ? &*found : nullptr;
-}
+std::span<const pmc::WindowFunction> windowFunctions() { return kFunctions; }
 
 } // namespace rung::nc::gsk

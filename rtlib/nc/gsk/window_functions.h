@@ -1,22 +1,9 @@
 // The functions of the GSK25i window, which WINDR and WINDW request from the CNC (man. Table 5-49, l.3203-3239; control
 // data l.8686-8945). Used by the compiler to check blocks, by the simulated CNC to answer, and by the reference page.
 #pragma once
-#include <cstdint>
-#include <span>
-#include <string_view>
+#include "rtlib/nc/pmc/window_functions.h"
 
 namespace rung::nc::gsk {
-
-enum class WindowAccess : uint8_t { Read, Write };
-
-// High speed: answered in the scan of the call. Low speed: in a later one (man. l.8501-8513).
-enum class WindowSpeed : uint8_t { High, Low };
-
-enum class WindowStatus : uint8_t {
-  Open,
-  ClosedInList,    // "not open" in the list: the PLC refuses it with end code 6 (P49)
-  ClosedInSection, // only its own section says "not open yet": the request reaches the CNC, which refuses it
-};
 
 // End codes (man. l.8668-8676).
 enum WindowEnd : uint16_t {
@@ -30,44 +17,12 @@ enum WindowEnd : uint16_t {
   kWindowProtected = 7,
 };
 
-// The control block: words, low byte first, and the data after them (tables l.8688-8945).
-inline constexpr uint32_t kWindowFunctionAt = 0;
-inline constexpr uint32_t kWindowEndAt = 2;
-inline constexpr uint32_t kWindowLengthAt = 4;
-inline constexpr uint32_t kWindowNumberAt = 6;
-inline constexpr uint32_t kWindowAttributeAt = 8;
-inline constexpr uint32_t kWindowDataAt = 10;
 inline constexpr uint32_t kWindowMaxLength = 4;
 
 // L is 1, 2 or 4 wherever it is given (man. l.8664, and every table of §9.3).
 constexpr bool isWindowLength(uint64_t bytes) { return bytes == 1 || bytes == 2 || bytes == 4; }
 
-// The number M or the attribute N. Without `meaning` the field is not used (man. l.8661).
-struct WindowField {
-  std::string_view meaning;
-  uint16_t min = 0;
-  uint16_t max = 0; // kNoLimit: the manual gives none
-};
-inline constexpr uint16_t kNoLimit = UINT16_MAX;
-
-struct WindowFunction {
-  uint16_t code = 0;
-  std::string_view title;
-  WindowAccess access = WindowAccess::Read;
-  WindowSpeed speed = WindowSpeed::Low;
-  WindowStatus status = WindowStatus::Open;
-  WindowField number = {};
-  WindowField attribute = {};
-  uint32_t scale = 0;            // data = value x scale; 0: no section describes the data
-  bool wholeOnly = false;        // written data must be a multiple of the scale
-  uint16_t listLine = 0;         // in Table 5-49
-  std::string_view section = {}; // of Part II; "" if there is none
-  uint16_t line = 0;             // of the section
-};
-
 // In the order of their codes.
-std::span<const WindowFunction> windowFunctions();
-// Null for a code that is not in the list.
-const WindowFunction* findWindowFunction(uint64_t code);
+std::span<const pmc::WindowFunction> windowFunctions();
 
 } // namespace rung::nc::gsk

@@ -6,8 +6,8 @@
 
 #include "rtlib/load/program_info.h"
 #include "rtlib/nc/names/grammar.h"
-#include "rtlib/nc/names/gsk.h"
 #include "rtlib/nc/names/nct.h"
+#include "rtlib/nc/names/pmc.h"
 #include "rtlib/nc/names/technol.h"
 #include "rtlib/text/letters.h"
 #include "rtlib/text/name_parts.h"
@@ -26,7 +26,7 @@ struct Row {
   std::string_view dialect;
   const NameGrammar& (*grammar)();
 };
-constexpr Row kDialects[] = {{"gsk", gskNames}, {"nct", nctNames}, {"technol", technolNames}};
+constexpr Row kDialects[] = {{"gsk", pmcNames}, {"nct", nctNames}, {"technol", technolNames}};
 
 const NameGrammar& grammarOf(const rung_program& program) {
   static const NameGrammar plain;

@@ -1,5 +1,5 @@
 // Converts a name, as the dialect writes it, to a place, and back. The forms of a dialect are described in the file of
-// its name (gsk.h, nct.h, technol.h), those of any other dialect in grammar.h. Symbols of the program, also hidden ones
+// its name (nct.h, pmc.h, technol.h), those of any other dialect in grammar.h. Symbols of the program, also hidden ones
 // ("@DR"), take precedence over everything else.
 //
 // Names are for the start, for users and for texts: no function here may be called in a scan.

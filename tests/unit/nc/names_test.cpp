@@ -15,9 +15,9 @@ using namespace rung::runtime;
 using namespace rung::nc;
 using rung::test::TestProgram;
 
-class GskNames : public testing::Test {
+class PmcNames : public testing::Test {
 protected:
-  GskNames() {
+  PmcNames() {
     test.dialect = "gsk";
     test.memorySize = 512;
     x = test.addSpace("X", 1, {{0, 16, 0, RUNG_REPR_BYTE_PER_BIT}});
@@ -33,7 +33,7 @@ protected:
   uint32_t x, d;
 };
 
-TEST_F(GskNames, Addresses) {
+TEST_F(PmcNames, Addresses) {
   EXPECT_EQ(at("X002.1"), bitRef(x, 2, 1));
   EXPECT_EQ(at("X2.1"), bitRef(x, 2, 1));
   EXPECT_EQ(at("D10"), intRef(d, 10, 8));
@@ -42,7 +42,7 @@ TEST_F(GskNames, Addresses) {
   EXPECT_EQ(at("D28:4"), intRef(d, 28, 32));
 }
 
-TEST_F(GskNames, Symbols) {
+TEST_F(PmcNames, Symbols) {
   EXPECT_EQ(at("START"), bitRef(x, 2, 1));
   EXPECT_EQ(at("COUNT"), intRef(d, 10, 8));
   EXPECT_EQ(at("COUNT.3"), bitRef(d, 10, 3));
@@ -51,14 +51,14 @@ TEST_F(GskNames, Symbols) {
   EXPECT_EQ(at("@NEXT"), intRef(d, 30, 16));
 }
 
-TEST_F(GskNames, WhatIsNoPlace) {
+TEST_F(PmcNames, WhatIsNoPlace) {
   for (const char* name :
        {"",        "X",   "X16", "X2.8",  "X2.1.1", "D10:3", "D10:8", "D29:4", "D32",          "Q1",
         "START.1", "D-1", "D 1", "start", "D10:",   "D10.",  ".1",    ":2",    "D99999999999", "D4294967297"})
     EXPECT_FALSE(at(name)) << name;
 }
 
-TEST_F(GskNames, FallbackServesWhatTheProgramDoesNotKnow) {
+TEST_F(PmcNames, FallbackServesWhatTheProgramDoesNotKnow) {
   const NameFallback signals = [&](std::string_view name) -> std::optional<Ref> {
     if (name == "SIGNAL" || name == "START") return intRef(d, 4, 8);
     return std::nullopt;
@@ -68,7 +68,7 @@ TEST_F(GskNames, FallbackServesWhatTheProgramDoesNotKnow) {
   EXPECT_EQ(resolve(test.program, "START", signals), bitRef(x, 2, 1)); // the program's own goes before
 }
 
-TEST_F(GskNames, Descriptions) {
+TEST_F(PmcNames, Descriptions) {
   EXPECT_EQ(describe(test.program, bitRef(x, 2, 1)), "X2.1 (START)");
   EXPECT_EQ(describe(test.program, bitRef(x, 2, 2)), "X2.2");
   EXPECT_EQ(describe(test.program, intRef(d, 10, 8)), "D10 (COUNT)");
@@ -77,7 +77,7 @@ TEST_F(GskNames, Descriptions) {
   EXPECT_EQ(describe(test.program, bitRef(9, 2, 1)), "no space");
 }
 
-TEST_F(GskNames, OfPlaces) {
+TEST_F(PmcNames, OfPlaces) {
   EXPECT_EQ(placeName(test.program, bitRef(x, 2, 1)), "START");
   EXPECT_EQ(placeName(test.program, bitRef(x, 2, 2)), "X2.2");
   EXPECT_EQ(placeName(test.program, intRef(d, 10, 16)), "D10");

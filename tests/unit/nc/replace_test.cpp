@@ -2,8 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "rtlib/load/program_info.h"
-#include "rtlib/nc/control/gsk/gsk_control.h"
 #include "rtlib/nc/control/nct/nct_control.h"
+#include "rtlib/nc/control/pmc/pmc_control.h"
+#include "rtlib/nc/gsk/model.h"
 #include "tests/unit/rtlib/test_program.h"
 
 namespace rung::nc {
@@ -33,7 +34,7 @@ TEST(ControlReplace, GskFinishesItsFunction) {
   test::TestProgram one, two;
   buildGsk(one, 0, RUNG_REPR_PACKED);
   buildGsk(two, 256, RUNG_REPR_BYTE_PER_BIT);
-  GskControl control;
+  PmcControl control(gsk::model());
   runtime::Instance instance(one.program, &control);
   control.powerOn(instance, PowerOn::Cold);
   Functions& functions = *control.functions(0);

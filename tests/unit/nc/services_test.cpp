@@ -48,7 +48,7 @@ TEST(Services, AreFoundByTheirTexts) {
 TEST(Services, OthersAreUnknown) {
   EXPECT_EQ(serviceKind("gsk", "windr function length -> end data"), kUnknownService);
   EXPECT_EQ(serviceKind("gsk", nct::service(nct::ServiceKind::ReadArray).text), kUnknownService);
-  EXPECT_EQ(serviceKind("other", gsk::service(gsk::ServiceKind::ReadWindow).text), kUnknownService);
+  EXPECT_EQ(serviceKind("other", gsk::service(pmc::ServiceKind::ReadWindow).text), kUnknownService);
   EXPECT_EQ(serviceOf("gsk", kUnknownService), nullptr);
   EXPECT_EQ(serviceOf("gsk", UINT32_MAX), nullptr);
 }

@@ -18,7 +18,7 @@ using nc::nct::ServiceKind;
 Statement statement(const std::string& line) { return parse("t.scn", "program a\n" + line + "\n").statements.at(1); }
 
 TEST(ScenarioServices, ArgumentsGoByName) {
-  const ServiceSignature windr(nc::gsk::service(nc::gsk::ServiceKind::ReadWindow));
+  const ServiceSignature windr(nc::gsk::service(nc::pmc::ServiceKind::ReadWindow));
   core::ServiceRequest request;
   request.argCount = 2;
   request.args[0] = 5;
@@ -38,7 +38,7 @@ TEST(ScenarioServices, ArgumentsGoByName) {
 }
 
 TEST(ScenarioServices, DataCompareModuloTheLength) {
-  const ServiceSignature windw(nc::gsk::service(nc::gsk::ServiceKind::WriteWindow));
+  const ServiceSignature windw(nc::gsk::service(nc::pmc::ServiceKind::WriteWindow));
   core::ServiceRequest request;
   request.argCount = 5;
   request.args[0] = 0x105;

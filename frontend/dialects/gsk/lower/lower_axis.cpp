@@ -9,7 +9,7 @@ namespace {
 
 using ir::Type;
 using ir::ValueId;
-namespace axis = nc::gsk;
+namespace axis = nc::pmc;
 
 enum : uint8_t { kIdle, kSent, kDone };
 constexpr int64_t kUnknownCommand = 1 << 5; // bit of the result (P53); the compiler checks groups
@@ -21,7 +21,7 @@ struct Step {
 class AxisLowering {
 public:
   explicit AxisLowering(Lowering& f)
-      : f_(f), b_(f.b), group_(axis::axisGroups()[static_cast<size_t>(f.param(0).value - 1)]) {}
+      : f_(f), b_(f.b), group_(nc::gsk::axisGroups()[static_cast<size_t>(f.param(0).value - 1)]) {}
   void run();
 
 private:
@@ -41,7 +41,7 @@ private:
 
 ValueId AxisLowering::isKnown(ValueId command) {
   uint64_t set = 0;
-  for (const axis::AxisCommand& known : axis::axisCommands()) set |= uint64_t{1} << known.code;
+  for (const axis::AxisCommand& known : nc::gsk::axisCommands()) set |= uint64_t{1} << known.code;
   return isIn(b_, b_.and_(command, b_.constant(Type::I8, axis::kAxisCommandBits)), set);
 }
 

@@ -73,23 +73,23 @@ private:
 template <class Belongs>
 uint64_t setOf(Belongs belongs) {
   uint64_t set = 0;
-  for (const window::WindowFunction& function : window::windowFunctions())
+  for (const nc::pmc::WindowFunction& function : window::windowFunctions())
     if (belongs(function)) set |= uint64_t{1} << function.code;
   return set;
 }
 
 // Bytes from the data to the end of the area, limited to the longest data; parameters.cpp ensures at least one.
 uint32_t WindowLowering::room() const {
-  const network::Address data = at(window::kWindowDataAt);
+  const network::Address data = at(nc::pmc::kWindowDataAt);
   return std::min(kLanguage.at(data.area).bytes - data.byte, window::kWindowMaxLength);
 }
 
 // P49: end code of a request that is refused without asking the CNC. Data beyond the end of the area have no valid
 // length (end code 2, man. l.8671).
 ValueId WindowLowering::refusal(ValueId function, ValueId length) {
-  const auto access = writes() ? window::WindowAccess::Write : window::WindowAccess::Read;
+  const auto access = writes() ? nc::pmc::WindowAccess::Write : nc::pmc::WindowAccess::Read;
   const uint64_t known = setOf([&](const auto& f) { return f.access == access; });
-  const uint64_t closed = setOf([](const auto& f) { return f.status == window::WindowStatus::ClosedInList; });
+  const uint64_t closed = setOf([](const auto& f) { return f.status == nc::pmc::WindowStatus::ClosedInList; });
   uint64_t lengths = 0;
   for (uint32_t bytes = 1; bytes <= room(); ++bytes)
     if (window::isWindowLength(bytes)) lengths |= uint64_t{1} << bytes;
@@ -101,10 +101,10 @@ ValueId WindowLowering::refusal(ValueId function, ValueId length) {
 }
 
 ValueId WindowLowering::dataToWrite(ValueId length) {
-  ValueId data = b_.sextOrTrunc(Type::I64, f_.load(Type::I8, at(window::kWindowDataAt)));
+  ValueId data = b_.sextOrTrunc(Type::I64, f_.load(Type::I8, at(nc::pmc::kWindowDataAt)));
   for (uint32_t bytes : {2u, 4u}) {
     if (bytes > room()) break;
-    const ValueId wider = b_.sextOrTrunc(Type::I64, f_.load(ir::intOfBytes(bytes), at(window::kWindowDataAt)));
+    const ValueId wider = b_.sextOrTrunc(Type::I64, f_.load(ir::intOfBytes(bytes), at(nc::pmc::kWindowDataAt)));
     data = b_.select(b_.eq(length, b_.constant(Type::I16, bytes)), wider, data);
   }
   return data;
@@ -112,10 +112,10 @@ ValueId WindowLowering::dataToWrite(ValueId length) {
 
 ValueId WindowLowering::request(ValueId function, ValueId length) {
   const auto raw = [&](ValueId value) { return b_.zextOrTrunc(Type::I64, value); };
-  std::vector<ValueId> args{raw(function), raw(length), raw(word(window::kWindowNumberAt)),
-                            raw(word(window::kWindowAttributeAt))};
+  std::vector<ValueId> args{raw(function), raw(length), raw(word(nc::pmc::kWindowNumberAt)),
+                            raw(word(nc::pmc::kWindowAttributeAt))};
   if (writes()) args.push_back(dataToWrite(length));
-  const auto kind = writes() ? nc::gsk::ServiceKind::WriteWindow : nc::gsk::ServiceKind::ReadWindow;
+  const auto kind = writes() ? nc::pmc::ServiceKind::WriteWindow : nc::pmc::ServiceKind::ReadWindow;
   return b_.serviceRequest(f_.service(nc::gsk::service(kind)), args);
 }
 
@@ -188,12 +188,12 @@ Step WindowLowering::begin() { return fork(f_.act(), &WindowLowering::start, &Wi
 
 // WINDW is always low speed (man. l.3152). A code that WINDR does not know has no speed and is refused at once.
 Step WindowLowering::start() {
-  function_ = word(window::kWindowFunctionAt);
-  length_ = word(window::kWindowLengthAt);
+  function_ = word(nc::pmc::kWindowFunctionAt);
+  length_ = word(nc::pmc::kWindowLengthAt);
   refusal_ = refusal(function_, length_);
   if (writes()) return lowSpeed();
-  const uint64_t low = setOf([](const window::WindowFunction& f) {
-    return f.access == window::WindowAccess::Read && f.speed == window::WindowSpeed::Low;
+  const uint64_t low = setOf([](const nc::pmc::WindowFunction& f) {
+    return f.access == nc::pmc::WindowAccess::Read && f.speed == nc::pmc::WindowSpeed::Low;
   });
   return fork(isIn(b_, function_, low), &WindowLowering::lowSpeed, &WindowLowering::immediate);
 }
@@ -231,14 +231,14 @@ void WindowLowering::ask() {
 void WindowLowering::finish(const Step& step) {
   f_.setOutput(step.out);
   b_.when(step.finished, [&] {
-    f_.store(at(window::kWindowEndAt), b_.zextOrTrunc(Type::I16, step.end));
+    f_.store(at(nc::pmc::kWindowEndAt), b_.zextOrTrunc(Type::I16, step.end));
     const ValueId good = b_.eq(step.end, b_.constant(Type::I64, window::kWindowDone));
     f_.store(f_.param(1).address, b_.zextOrTrunc(Type::I8, b_.not_(good)));
     if (writes()) return;
     for (uint32_t bytes : {1u, 2u, 4u}) {
       if (bytes > room()) break;
       b_.when(b_.and_(good, b_.eq(step.length, b_.constant(Type::I16, bytes))),
-              [&] { f_.store(at(window::kWindowDataAt), b_.zextOrTrunc(ir::intOfBytes(bytes), step.data)); });
+              [&] { f_.store(at(nc::pmc::kWindowDataAt), b_.zextOrTrunc(ir::intOfBytes(bytes), step.data)); });
     }
   });
 }

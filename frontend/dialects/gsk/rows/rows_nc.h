@@ -8,7 +8,7 @@
 namespace rung::frontend::gsk {
 
 // The fixed part of a window block and the shortest data; the length of the data is known at run time only.
-inline constexpr uint32_t kWindowBlockBytes = nc::gsk::kWindowDataAt + 1;
+inline constexpr uint32_t kWindowBlockBytes = nc::pmc::kWindowDataAt + 1;
 inline constexpr uint32_t kZoneBlockBytes = 1 + 7 * 4;  // man. l.3437-3447
 inline constexpr uint32_t kRangeBlockBytes = 1 + 2 * 4; // P56
 
@@ -60,7 +60,7 @@ inline constexpr Row kNcRows[] = {
                    "has gone; with ACT=0 it becomes 0 again (P52). An unknown command: bit 5 of the result, OUT=1, "
                    "nothing is sent (P53). RST=1 sets ECLR, RST=0 clears it.",
                .example = "LD R0.0\nLD R0.1\nFUNC 46\nPRM 1\nPRM D100\nPRM R10\nOUT R0.2"},
-      .recordBytes = nc::gsk::kAxisBlockBytes},
+      .recordBytes = nc::pmc::kAxisBlockBytes},
      &lowerAxisControl},
     {{.info = {.mnemonic = "PSGNL",
                .title = "position signals",

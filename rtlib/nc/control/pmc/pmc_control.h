@@ -1,0 +1,80 @@
+// The control of the PMC family: the machine's and the CNC's signals outlive the PLC's power, messages are bits of the
+// A area. A dialect has its own by a table (rtlib/nc/pmc/model.h). Of a CNC with several paths it serves the first one,
+// whose signals are at F0 and G0.
+#pragma once
+#include <array>
+#include <span>
+
+#include "rtlib/nc/control/control.h"
+#include "rtlib/nc/control/pmc/asked_axes.h"
+#include "rtlib/nc/control/pmc/pmc_functions.h"
+#include "rtlib/nc/pmc/model.h"
+
+namespace rung::nc {
+
+namespace pmc {
+
+// Adjacent bytes of the A area, and their place in the memory block.
+struct MessageBytes {
+  uint32_t first = 0, count = 0;
+  uint32_t offset = 0;
+  bool expanded = false; // a byte of the block for each bit
+
+  uint32_t size() const noexcept { return expanded ? 8 * count : count; } // in the block
+};
+
+} // namespace pmc
+
+class PmcControl final : public Control {
+public:
+  // The model outlives it.
+  explicit PmcControl(const pmc::Model& model) : model_(&model), functions_(model), axes_(model) {}
+
+  static constexpr uint32_t kMostMessageBytes = 256; // of the A area
+  // X and F belong to the machine and the CNC, so switching the PLC off and on does not change them (inventory §18).
+  void prepare(runtime::Instance& instance, PowerOn kind) override;
+  std::unique_ptr<Places> locate(const rung_program& program) const override;
+  // Message number 8·byte + bit + 1 is shown while its A bit is 1 (P57).
+  std::vector<ShownMessage> messages(const runtime::Instance& instance) const override;
+  bool shows(const runtime::Instance& instance, std::span<const ShownMessage> these) const noexcept override;
+  bool nextChange(const runtime::Instance& instance, rung_message& message) noexcept override;
+  // The second level is cut into slots of 8 ms.
+  bool runsInSlots() const override { return true; }
+  PmcFunctions* functions(uint32_t channel) override { return channel == 0 ? &functions_ : nullptr; }
+  // Axes without a group, and the signals of their groups, are left alone.
+  bool setAxisGroup(uint32_t axis, uint32_t group) override { return axes_.setGroup(axis, group); }
+  void setServed(bool served) override { served_ = served; }
+  void beforeSlice(runtime::Instance& instance) override {
+    if (axes_.any() && io_) axes_.step(*io_, instance.services(), served_);
+  }
+  // Window functions end with the dialect's code for "not provided".
+  core::ServiceReply refuse(const core::ServiceRequest& request) const noexcept override;
+  core::ServiceName ownService() const override {
+    return {model_->service(pmc::ServiceKind::MoveAxis).text.data(), static_cast<uint32_t>(pmc::ServiceKind::MoveAxis)};
+  }
+  // The areas of the program that runs now; null before there is one.
+  const pmc::SignalsIo* signals() const { return io_ ? &*io_ : nullptr; }
+
+protected:
+  void usePlaces(runtime::Instance& instance, Places& places) noexcept override;
+  std::optional<runtime::Ref> signal(const rung_program& program, std::string_view name) const override;
+
+private:
+  // Whether the bytes of the A area are those of the last call of `see`, so that none of its bits has changed.
+  bool isAsSeen(const uint8_t* block) const noexcept;
+  void see(const uint8_t* block) noexcept;
+
+  const pmc::Model* model_;
+  PmcFunctions functions_;
+  PmcAskedAxes axes_;
+  bool served_ = true;
+  std::optional<pmc::SignalsIo> io_; // of the program that runs now
+  uint32_t messageArea_ = RUNG_NONE;
+  uint32_t messageBytes_ = 0;
+  std::array<uint8_t, kMostMessageBytes> known_{};            // bits of the A area as reported to the host
+  std::span<const pmc::MessageBytes> messagePieces_;          // owned by the Places
+  std::array<uint8_t, size_t{8} * kMostMessageBytes> seen_{}; // their bytes at the last `see`
+  bool hasSeen_ = false;
+};
+
+} // namespace rung::nc

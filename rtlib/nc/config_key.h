@@ -37,6 +37,7 @@ inline constexpr ConfigKey kEncodingKey = {.key = "encoding",
                                            .otherwise = "UTF-8",
                                            .doc = "of source files that do not name it in their first line"};
 
+std::span<const ConfigKey> fanucConfigKeys();
 std::span<const ConfigKey> gskConfigKeys();
 std::span<const ConfigKey> nctConfigKeys();
 std::span<const ConfigKey> technolConfigKeys();

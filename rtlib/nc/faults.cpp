@@ -15,8 +15,8 @@ constexpr Fault kOverrun = {"overrun", "Many scans in a row, 500 unless the host
                                        "whole period or more late. Shorten the program, choose a longer period, or "
                                        "check what else takes the time of the thread."};
 
-constexpr Fault kGsk[] = {
-    {kGskDeadLoop,
+constexpr Fault kPmc[] = {
+    {kPmcDeadLoop,
      "One run of Level 1 or of a part of Level 2 does not end: a jump leads backwards and its condition "
      "never "
      "changes within the run. The rung in brackets is the one where the budget of steps was used up; look at the jumps "
@@ -60,7 +60,7 @@ constexpr Fault kTechnol[] = {
 } // namespace
 
 std::span<const Fault> faultsOf(std::string_view dialect) {
-  if (dialect == "gsk") return kGsk;
+  if (dialect == "fanuc" || dialect == "gsk") return kPmc;
   if (dialect == "nct") return kNct;
   if (dialect == "technol") return kTechnol;
   return {};

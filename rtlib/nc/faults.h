@@ -7,7 +7,7 @@
 
 namespace rung::nc {
 
-inline constexpr std::string_view kGskDeadLoop = "dead-loop";
+inline constexpr std::string_view kPmcDeadLoop = "dead-loop";
 inline constexpr std::string_view kNctTimeout = "PLC timeout";
 inline constexpr std::string_view kTechnolDivision = "halt-status 2: integer division by zero or overflow";
 inline constexpr std::string_view kTechnolReal = "halt-status 3: real arithmetic";

@@ -1,6 +1,7 @@
 // Tables of services by dialect name.
 #include "rtlib/nc/service.h"
 
+#include "rtlib/nc/fanuc/services.h"
 #include "rtlib/nc/gsk/services.h"
 #include "rtlib/nc/nct/services.h"
 #include "rtlib/nc/technol/services.h"
@@ -21,6 +22,7 @@ const technol::DeviceService* technolService(std::string_view dialect, uint32_t 
 } // namespace
 
 const ServiceRow* serviceOf(std::string_view dialect, uint32_t kind) {
+  if (dialect == "fanuc") return rowIn(fanuc::kServices, kind);
   if (dialect == "gsk") return rowIn(gsk::kServices, kind);
   if (dialect == "nct") return rowIn(nct::kServices, kind);
   const technol::DeviceService* row = technolService(dialect, kind);

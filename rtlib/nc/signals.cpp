@@ -5,6 +5,7 @@
 #include <functional>
 #include <span>
 
+#include "rtlib/nc/fanuc/signals.h"
 #include "rtlib/nc/gsk/signals.h"
 #include "rtlib/nc/nct/signals.h"
 #include "rtlib/nc/technol/signals.h"
@@ -12,6 +13,7 @@
 namespace rung::nc {
 
 const SignalTable* signalsOf(std::string_view dialect) {
+  if (dialect == "fanuc") return &fanucSignals();
   if (dialect == "gsk") return &gskSignals();
   if (dialect == "nct") return &nctSignals();
   if (dialect == "technol") return &technolSignals();
@@ -33,8 +35,8 @@ std::string_view noteIn(const SignalTable& table, std::span<const SignalNote> no
 
 std::string_view noteOf(const Signal& signal) {
   for (const std::string_view note :
-       {noteIn(gskSignals(), gskSignalNotes(), signal), noteIn(nctSignals(), nctSignalNotes(), signal),
-        noteIn(technolSignals(), technolSignalNotes(), signal)})
+       {noteIn(fanucSignals(), fanucSignalNotes(), signal), noteIn(gskSignals(), gskSignalNotes(), signal),
+        noteIn(nctSignals(), nctSignalNotes(), signal), noteIn(technolSignals(), technolSignalNotes(), signal)})
     if (!note.empty()) return note;
   return {};
 }

@@ -8,6 +8,7 @@
 #include "rtlib/nc/control/nct/nct_control.h"
 #include "rtlib/nc/control/pmc/pmc_control.h"
 #include "rtlib/nc/control/technol/technol_control.h"
+#include "rtlib/nc/fanuc/model.h"
 #include "rtlib/nc/gsk/model.h"
 #include "rtlib/nc/names/names.h"
 
@@ -62,6 +63,7 @@ std::string Control::text(const ShownMessage& message) const {
 }
 
 std::unique_ptr<Control> makeControl(std::string_view dialect) {
+  if (dialect == "fanuc") return std::make_unique<PmcControl>(fanuc::model());
   if (dialect == "gsk") return std::make_unique<PmcControl>(gsk::model());
   if (dialect == "nct") return std::make_unique<NctControl>();
   if (dialect == "technol") return std::make_unique<TechnolControl>();

@@ -40,6 +40,10 @@ Table::Table(std::string path) : path_(std::move(path)) {
   }
 }
 
+bool Table::has(std::string_view column) const {
+  return std::find(columns_.begin(), columns_.end(), column) != columns_.end();
+}
+
 const std::string& Table::at(size_t row, std::string_view column) const {
   const auto it = std::find(columns_.begin(), columns_.end(), column);
   if (it == columns_.end()) throw TableError{path_ + ":1: no column " + std::string(column)};

@@ -17,6 +17,7 @@ class Table {
 public:
   explicit Table(std::string path);
 
+  [[nodiscard]] bool has(std::string_view column) const;
   [[nodiscard]] size_t rowCount() const { return rows_.size(); }
   [[nodiscard]] const std::string& at(size_t row, std::string_view column) const;
   [[nodiscard]] uint32_t number(size_t row, std::string_view column) const;

@@ -75,7 +75,7 @@ Row commonColumns(const Table& table, size_t i) {
   const size_t note = std::min(meaning.find(kNoteMark), meaning.size());
   row.meaning = meaning.substr(0, note);
   if (note < meaning.size()) row.note = meaning.substr(note + kNoteMark.size());
-  row.manualLine = table.number(i, "manual_line");
+  if (table.has("manual_line")) row.manualLine = table.number(i, "manual_line");
   row.type = type->second;
   row.direction = direction->second;
   return row;

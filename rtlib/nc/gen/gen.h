@@ -24,6 +24,7 @@ struct Row {
 /// The columns that mean the same in every dialect.
 Row commonColumns(const Table& table, size_t row);
 
+std::vector<Row> layoutFanuc(const Table& table);
 std::vector<Row> layoutGsk(const Table& table);
 std::vector<Row> layoutNct(const Table& table);
 std::vector<Row> layoutTechnol(const Table& table);

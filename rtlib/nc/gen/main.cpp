@@ -14,8 +14,10 @@ struct Dialect {
   bool ignoreCase;
 };
 
-constexpr Dialect kDialects[] = {
-    {"gsk", layoutGsk, false}, {"nct", layoutNct, false}, {"technol", layoutTechnol, true}};
+constexpr Dialect kDialects[] = {{"fanuc", layoutFanuc, true},
+                                 {"gsk", layoutGsk, false},
+                                 {"nct", layoutNct, false},
+                                 {"technol", layoutTechnol, true}};
 
 int run(const std::string& name, const char* csv, const char* out) {
   const auto dialect =
@@ -35,7 +37,7 @@ int run(const std::string& name, const char* csv, const char* out) {
 
 int main(int argc, char** argv) {
   if (argc != 4) {
-    std::fputs("usage: rung_gen_signals gsk|nct|technol SIGNALS.CSV OUT.INC\n", stderr);
+    std::fputs("usage: rung_gen_signals fanuc|gsk|nct|technol SIGNALS.CSV OUT.INC\n", stderr);
     return 2;
   }
   try {

@@ -26,7 +26,7 @@ struct Row {
   std::string_view dialect;
   const NameGrammar& (*grammar)();
 };
-constexpr Row kDialects[] = {{"gsk", pmcNames}, {"nct", nctNames}, {"technol", technolNames}};
+constexpr Row kDialects[] = {{"fanuc", fanucNames}, {"gsk", gskNames}, {"nct", nctNames}, {"technol", technolNames}};
 
 const NameGrammar& grammarOf(const rung_program& program) {
   static const NameGrammar plain;

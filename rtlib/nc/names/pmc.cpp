@@ -1,6 +1,11 @@
 // BASE.b, BASE:bytes, and area letter with address (see pmc.h).
 #include "rtlib/nc/names/pmc.h"
 
+#include <algorithm>
+#include <span>
+
+#include "rtlib/load/program_info.h"
+#include "rtlib/text/letters.h"
 #include "rtlib/text/number.h"
 
 namespace rung::nc {
@@ -10,7 +15,7 @@ using runtime::RefKind;
 
 namespace {
 
-class PmcNames final : public NameGrammar {
+class PmcNames : public NameGrammar {
 public:
   // T10 is an address in programs, so it is an address here, too, and not the signal of that name.
   bool addressFirst() const override { return true; }
@@ -22,7 +27,7 @@ public:
       return search.bitIn(name.substr(0, dot), name.substr(dot + 1));
     const std::optional<uint32_t> byte = text::numberIn<uint32_t>(name.substr(1));
     if (!byte) return std::nullopt;
-    return search.inSpace(runtime::intRef(search.space(name.substr(0, 1)), *byte, 8));
+    return search.inSpace(runtime::intRef(search.space(area(name)), *byte, 8));
   }
 
   std::string address(const rung_program& program, const Ref& place) const override {
@@ -36,12 +41,35 @@ public:
     const bool longer = place.kind != RefKind::Bit && place.width > 8;
     return address(program, place) + (longer ? ":" + std::to_string(place.width / 8) : "");
   }
+
+protected:
+  virtual std::string area(std::string_view name) const { return std::string(name.substr(0, 1)); }
+};
+
+// Symbols are shown as the program writes them and found in either case, and so are areas.
+class FanucNames final : public PmcNames {
+public:
+  const rung_symbol* symbol(const rung_program& program, std::string_view name) const override {
+    if (const rung_symbol* exact = runtime::findSymbol(program, name)) return exact;
+    const std::span symbols(program.symbols, program.symbol_count);
+    const auto found = std::ranges::find_if(
+        symbols, [&](const rung_symbol& each) { return text::equalsIgnoringCase(each.name, name); });
+    return found == symbols.end() ? nullptr : &*found;
+  }
+
+protected:
+  std::string area(std::string_view name) const override { return text::upper(PmcNames::area(name)); }
 };
 
 } // namespace
 
-const NameGrammar& pmcNames() {
+const NameGrammar& gskNames() {
   static const PmcNames names;
+  return names;
+}
+
+const NameGrammar& fanucNames() {
+  static const FanucNames names;
   return names;
 }
 

@@ -5,6 +5,7 @@
 
 namespace rung::nc {
 
-const NameGrammar& pmcNames();
+const NameGrammar& gskNames();
+const NameGrammar& fanucNames(); // in either case
 
 } // namespace rung::nc

@@ -11,7 +11,7 @@ namespace {
 
 constexpr network::Execution kExecution{.slotUs = kSlotUs,
                                         .budget = 1'000'000, // P6
-                                        .overrunFault = nc::kGskDeadLoop,
+                                        .overrunFault = nc::kPmcDeadLoop,
                                         .results = {areas::kR, kResultFlags},
                                         .resultBytes = kResultBytes};
 

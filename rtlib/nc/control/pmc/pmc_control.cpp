@@ -27,8 +27,23 @@ void writeArea(runtime::Instance& instance, const char* area, const std::vector<
 
 constexpr uint32_t kMostMessageBytes = PmcControl::kMostMessageBytes;
 
+// The number at the beginning of a text of FANUC's list, "1000 DOOR OPEN".
+uint32_t numberOf(std::string_view text) {
+  return text::numberIn<uint32_t>(text.substr(0, text.find(' '))).value_or(0);
+}
+// The text without the number.
+std::string_view withoutNumber(std::string_view text) {
+  const size_t blank = text.find(' ');
+  return blank == std::string_view::npos ? std::string_view() : text.substr(blank + 1);
+}
+
+// FANUC's messages: the text in another language lies this many A bits further, as the word K918 says.
+constexpr uint32_t kShiftAt = 918;
+
 struct PmcPlaces final : Places {
-  explicit PmcPlaces(const rung_program& program) : areas(program), messages(runtime::findSpace(program, "A")) {
+  PmcPlaces(const rung_program& program, pmc::MessageRule rule)
+      : areas(program), messages(runtime::findSpace(program, "A")) {
+    if (rule == pmc::MessageRule::ByTextList) readNumbers(program);
     if (messages == RUNG_NONE) return;
     const rung_space& space = program.spaces[messages];
     messageBytes = std::min(space.byte_count, kMostMessageBytes);
@@ -42,7 +57,20 @@ struct PmcPlaces final : Places {
         written.push_back(runtime::writtenBits(program, range.offset + i));
     }
   }
+  void readNumbers(const rung_program& program) {
+    display = runtime::findSpace(program, "@DISPB");
+    shift = runtime::findSpace(program, "K");
+    if (shift != RUNG_NONE && program.spaces[shift].byte_count < kShiftAt + 2) shift = RUNG_NONE;
+    for (const rung_message_text& text : std::span(program.texts, program.text_count)) {
+      if (text.number == 0 || text.number > 8 * kMostMessageBytes) continue;
+      if (text.number > numbers.size()) numbers.resize(text.number);
+      numbers[text.number - 1] = numberOf(text.text);
+    }
+  }
+
   pmc::Areas areas;
+  std::vector<uint32_t> numbers; // of texts, by the text's number in the program's table - 1
+  uint32_t display = RUNG_NONE, shift = RUNG_NONE;
   uint32_t messages;
   uint32_t messageBytes = 0;
   std::vector<pmc::MessageBytes> pieces;
@@ -78,7 +106,7 @@ bool forShown(const uint8_t* block, std::span<const pmc::MessageBytes> pieces, S
 } // namespace
 
 std::unique_ptr<Places> PmcControl::locate(const rung_program& program) const {
-  return std::make_unique<PmcPlaces>(program);
+  return std::make_unique<PmcPlaces>(program, model_->messages);
 }
 
 void PmcControl::usePlaces(runtime::Instance& instance, Places& places) noexcept {
@@ -88,6 +116,9 @@ void PmcControl::usePlaces(runtime::Instance& instance, Places& places) noexcept
   messageArea_ = own.messages;
   messageBytes_ = own.messageBytes;
   messagePieces_ = own.pieces;
+  numbers_ = own.numbers;
+  displaySpace_ = own.display;
+  shiftSpace_ = own.shift;
   hasSeen_ = false;
   endOthers(instance.block().data(), own);
 }
@@ -104,44 +135,79 @@ void PmcControl::prepare(runtime::Instance& instance, PowerOn kind) {
   hasSeen_ = false;
 }
 
-bool PmcControl::isAsSeen(const uint8_t* block) const noexcept {
+bool PmcControl::displays(const runtime::Instance& instance) const noexcept {
+  if (model_->messages == pmc::MessageRule::ByBit) return true;
+  return displaySpace_ != RUNG_NONE && instance.memory().readByte(displaySpace_, 0) != 0;
+}
+
+uint32_t PmcControl::shift(const runtime::Instance& instance) const noexcept {
+  return shiftSpace_ == RUNG_NONE ? 0 : static_cast<uint32_t>(instance.memory().read(shiftSpace_, kShiftAt, 2));
+}
+
+PmcControl::Known PmcControl::known(uint32_t bit, uint32_t shift) const noexcept {
+  if (model_->messages == pmc::MessageRule::ByBit) return {bit, bit};
+  const auto numberAt = [&](uint32_t key) { return key <= numbers_.size() ? numbers_[key - 1] : 0; };
+  const uint32_t key = numberAt(bit + shift) != 0 ? bit + shift : bit; // a language without this text
+  return {numberAt(key), key};
+}
+
+template <class See>
+bool PmcControl::forMessages(const runtime::Instance& instance, See see) const {
+  if (!displays(instance)) return true;
+  const uint32_t moved = shift(instance);
+  return forShown(instance.block().data(), messagePieces_, [&](uint32_t bit) {
+    const Known found = known(bit, moved);
+    return found.number == 0 || see(found.key, found.number);
+  });
+}
+
+bool PmcControl::isAsSeen(const uint8_t* block, bool display) const noexcept {
+  if (!hasSeen_ || display != seenDisplay_) return false;
   const uint8_t* seen = seen_.data();
   for (const pmc::MessageBytes& piece : messagePieces_) {
     if (std::memcmp(block + piece.offset, seen, piece.size()) != 0) return false;
     seen += piece.size();
   }
-  return hasSeen_;
+  return true;
 }
 
-void PmcControl::see(const uint8_t* block) noexcept {
+void PmcControl::see(const uint8_t* block, bool display) noexcept {
   uint8_t* seen = seen_.data();
   for (const pmc::MessageBytes& piece : messagePieces_) {
     std::memcpy(seen, block + piece.offset, piece.size());
     seen += piece.size();
   }
   hasSeen_ = true;
+  seenDisplay_ = display;
 }
 
 bool PmcControl::nextChange(const runtime::Instance& instance, rung_message& message) noexcept {
-  if (isAsSeen(instance.block().data())) return false;
+  const bool display = displays(instance);
+  if (isAsSeen(instance.block().data(), display)) return false;
+  const uint32_t moved = shift(instance);
   for (uint32_t byte = 0; byte < messageBytes_; ++byte) {
-    const uint8_t bits = instance.memory().readByte(messageArea_, byte);
-    const auto changed = static_cast<uint8_t>(bits ^ known_[byte]);
-    if (changed == 0) continue;
-    const auto bit = static_cast<uint32_t>(std::countr_zero(changed));
-    known_[byte] = static_cast<uint8_t>(known_[byte] ^ 1u << bit);
-    const bool shown = (bits >> bit & 1) != 0;
-    message = {.op = shown ? RUNG_MESSAGE_SHOW : RUNG_MESSAGE_CLEAR, .number = 8 * byte + bit + 1};
-    return true;
+    const uint8_t bits = display ? instance.memory().readByte(messageArea_, byte) : uint8_t{0};
+    for (uint8_t changed = bits ^ known_[byte]; changed != 0; changed = bits ^ known_[byte]) {
+      const auto bit = static_cast<uint32_t>(std::countr_zero(changed));
+      known_[byte] = static_cast<uint8_t>(known_[byte] ^ 1u << bit);
+      const Known found = known(8 * byte + bit + 1, moved);
+      if (found.number == 0) continue;
+      message = {.op = (bits >> bit & 1) != 0 ? RUNG_MESSAGE_SHOW : RUNG_MESSAGE_CLEAR, .number = found.number};
+      if (model_->messages == pmc::MessageRule::ByTextList) message.value = found.key;
+      return true;
+    }
   }
-  see(instance.block().data());
+  see(instance.block().data(), display);
   return false;
 }
 
 std::vector<ShownMessage> PmcControl::messages(const runtime::Instance& instance) const {
+  const bool listed = model_->messages == pmc::MessageRule::ByTextList;
   std::vector<ShownMessage> shown;
-  forShown(instance.block().data(), messagePieces_, [&](uint32_t number) {
-    shown.push_back({number, 0, 0, 0, false, std::string(runtime::messageText(instance.program(), number))});
+  forMessages(instance, [&](uint32_t key, uint32_t number) {
+    const std::string_view text = runtime::messageText(instance.program(), key);
+    shown.push_back(
+        {.number = number, .value = listed ? key : 0, .text = std::string(listed ? withoutNumber(text) : text)});
     return true;
   });
   return shown;
@@ -149,12 +215,50 @@ std::vector<ShownMessage> PmcControl::messages(const runtime::Instance& instance
 
 bool PmcControl::shows(const runtime::Instance& instance, std::span<const ShownMessage> these) const noexcept {
   size_t count = 0;
-  const bool same = forShown(instance.block().data(), messagePieces_, [&](uint32_t number) {
+  const bool same = forMessages(instance, [&](uint32_t, uint32_t number) {
     if (count == these.size() || these[count].number != number) return false;
     ++count;
     return true;
   });
   return same && count == these.size();
+}
+
+// FANUC's kinds of messages by number: alarms, which the CNC shows with EX; operator messages; those without a number.
+
+namespace {
+
+constexpr uint32_t kFirstAlarm = 1000, kFirstMessage = 2000, kFirstPlain = 2100;
+
+bool isAlarm(uint32_t number) { return number >= kFirstAlarm && number < kFirstMessage; }
+
+// Appends as much as fits.
+void put(std::string_view text, std::span<char> out, size_t& size) {
+  const size_t count = std::min(text.size(), out.size() - size);
+  std::copy_n(text.data(), count, out.data() + size);
+  size += count;
+}
+
+} // namespace
+
+bool PmcControl::showsAlarm(const runtime::Instance& instance) const noexcept {
+  return model_->messages == pmc::MessageRule::ByTextList &&
+         !forMessages(instance, [](uint32_t, uint32_t number) { return !isAlarm(number); });
+}
+
+size_t PmcControl::describe(const rung_program& program, const rung_message& message,
+                            std::span<char> out) const noexcept {
+  if (model_->messages == pmc::MessageRule::ByBit) return Control::describe(program, message, out);
+  size_t size = 0;
+  if (isAlarm(message.number)) put("EX", out, size);
+  put(runtime::messageText(program, static_cast<uint32_t>(message.value)), out, size); // begins with the number
+  return size;
+}
+
+std::string PmcControl::text(const ShownMessage& message) const {
+  if (model_->messages == pmc::MessageRule::ByBit) return Control::text(message);
+  const std::string number = std::to_string(message.number), text = " \"" + message.text + "\"";
+  if (isAlarm(message.number)) return "alarm EX" + number + text;
+  return "message " + number + text + (message.number >= kFirstPlain ? ", shown without its number" : "");
 }
 
 namespace {

@@ -1,14 +1,16 @@
-// gsk: every signal has its printed address, e.g. "X000" and bit 3.
+// gsk, fanuc: every signal has its printed address, e.g. "X000" and bit 3.
 #include "rtlib/nc/gen/gen.h"
 
 namespace rung::nc::gen {
 
-std::vector<Row> layoutGsk(const Table& table) {
+namespace {
+
+std::vector<Row> layoutAddresses(const Table& table, std::string_view groupColumn) {
   std::vector<Row> rows;
   for (size_t i = 0; i < table.rowCount(); ++i) {
     Row row = commonColumns(table, i);
     row.address = table.at(i, "address");
-    row.group = table.at(i, "mc_or_tc");
+    row.group = table.at(i, groupColumn);
     row.area = row.address.substr(0, 1);
     if (row.area.find_first_of("XYFG") == std::string::npos || !matchNumber(row.address, row.area, row.byteOffset))
       table.fail(i, "address is not X, Y, F or G and a number");
@@ -19,5 +21,10 @@ std::vector<Row> layoutGsk(const Table& table) {
   }
   return rows;
 }
+
+} // namespace
+
+std::vector<Row> layoutGsk(const Table& table) { return layoutAddresses(table, "mc_or_tc"); }
+std::vector<Row> layoutFanuc(const Table& table) { return layoutAddresses(table, "certainty"); }
 
 } // namespace rung::nc::gen

@@ -10,6 +10,7 @@ class NoTranslation final : public Translation {};
 
 const Translation& translationOf(std::string_view dialect) {
   static constexpr NoTranslation kNone;
+  if (dialect == "fanuc") return fanucTranslation();
   if (dialect == "gsk") return gskTranslation();
   return dialect == "nct" ? nctTranslation() : kNone;
 }

@@ -107,6 +107,8 @@ const Translation& translationOf(std::string_view dialect);
 // The window functions of GSK25i (man. §9.3) and its PLC axis control (§9.2). High-speed window functions are answered
 // at once or not at all.
 const Translation& gskTranslation();
+// The window functions of the FANUC PMC and its axis control, in the same way.
+const Translation& fanucTranslation();
 // MACR, MACW, MOVCMND and SCP of NCT (man. §6.15-§6.17). SCP is answered at once or not at all.
 const Translation& nctTranslation();
 

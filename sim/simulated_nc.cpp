@@ -94,6 +94,7 @@ private:
 std::unique_ptr<SimulatedNc> makeSimulatedPlain() { return std::make_unique<SimulatedPlain>(); }
 
 std::unique_ptr<SimulatedNc> makeSimulatedNc(std::string_view dialect) {
+  if (dialect == "fanuc") return makeSimulatedFanuc();
   if (dialect == "gsk") return makeSimulatedGsk();
   if (dialect == "nct") return makeSimulatedNct();
   if (dialect == "technol") return makeSimulatedTechnol();

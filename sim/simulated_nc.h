@@ -144,6 +144,7 @@ private:
 std::unique_ptr<SimulatedNc> makeSimulatedNc(std::string_view dialect);
 
 std::unique_ptr<SimulatedNc> makeSimulatedPlain(); // for a dialect without its own control
+std::unique_ptr<SimulatedNc> makeSimulatedFanuc();
 std::unique_ptr<SimulatedNc> makeSimulatedGsk();
 std::unique_ptr<SimulatedNc> makeSimulatedNct();
 std::unique_ptr<SimulatedNc> makeSimulatedTechnol();

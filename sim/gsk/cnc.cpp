@@ -20,7 +20,6 @@ constexpr Parameters kParameters = {
     .noInterlock = {},
     .noAxisInterlock = {.otherwise = true},
     .noDirectionInterlock = {},
-    .noHandle = {},
     .dryRun = 1210,       // l.5339
     .rapid = 1225,        // l.5585
     .rapidF0 = 1231,      // l.5591

@@ -46,6 +46,7 @@ constexpr Statement kStatements[] = {
 };
 
 std::span<const nc::ConfigKey> keysOf(std::string_view dialect) {
+  if (dialect == "fanuc") return nc::fanucConfigKeys();
   if (dialect == "gsk") return nc::gskConfigKeys();
   if (dialect == "nct") return nc::nctConfigKeys();
   return nc::technolConfigKeys();

@@ -159,6 +159,10 @@ double Operation::absolute(const Machine& machine, uint32_t axis) const {
   return static_cast<double>(machine.axes[axis].commanded - shift(machine, axis)) / kUnitsPerMm;
 }
 
+int64_t Operation::distanceToGo(const Machine& machine, uint32_t axis) const {
+  return moving() ? moves_[move_].target[axis] - machine.axes[axis].commanded : 0;
+}
+
 void Operation::modalCode(Run&, int tenths, double p) {
   modal_.path.take(tenths);
   switch (tenths) {

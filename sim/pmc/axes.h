@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,7 @@ public:
   }
   void clear() { active_.clear(); }
   bool any() const { return !active_.empty(); }
+  std::span<const uint32_t> active() const { return active_; }
   uint32_t last() const { return active_.empty() ? 0 : active_.back(); }
 
 private:

@@ -41,7 +41,6 @@ struct Parameters {
   ParameterBit noInterlock;                               // *IT is not valid
   ParameterBit noAxisInterlock;                           // *IT of each axis is not valid
   ParameterBit noDirectionInterlock;                      // ±MIT is not valid
-  ParameterBit noHandle;                                  // the mode of hand wheels is that of steps
   uint32_t dryRun = 0;                                    // mm/min, like the next ones
   uint32_t rapid = 0;                                     // of each axis
   uint32_t rapidF0 = 0;                                   // of each axis

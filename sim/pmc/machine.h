@@ -17,9 +17,11 @@ struct Machine {
   Axes axes;
   Spindle spindle;
   Alarms alarms;
-  uint8_t plcAxes = 0; // bit n-1: axis n belongs to the PLC (EAXn)
-  bool rapid = false;  // the motion that began last was rapid (l.5607)
+  uint8_t plcAxes = 0;       // bit n-1: axis n belongs to the PLC (EAXn)
+  bool messageAlarm = false; // a message of the program is an alarm
+  bool rapid = false;        // the motion that began last was rapid (l.5607)
 
+  bool hasAlarm() const { return alarms.any() || messageAlarm; }
   bool isPlcAxis(uint32_t axis) const { return ((plcAxes >> axis) & 1) != 0; }
   // Whether there is such a macro variable, and it may be read.
   bool isMacro(uint32_t number) const;

@@ -63,8 +63,8 @@ void Operation::followButtons(Run& run) {
   const bool pressed = startWasOn_ && !startOn;
   startWasOn_ = startOn;
   const bool hold = !run.io.g(8, 5); // *SP
-  if (state_ == RunState::Start && (hold || run.machine.alarms.any())) state_ = RunState::Hold;
-  if (!pressed || hold || run.machine.alarms.any() || !runsPrograms(mode_) || state_ == RunState::Start) return;
+  if (state_ == RunState::Start && (hold || run.machine.hasAlarm())) state_ = RunState::Hold;
+  if (!pressed || hold || run.machine.hasAlarm() || !runsPrograms(mode_) || state_ == RunState::Start) return;
   if (mode_ != runMode_ && inBlock_) return; // a block of another mode must be reset first
   if (mode_ != runMode_ || (state_ == RunState::Reset && !inBlock_)) next_ = 0;
   runMode_ = mode_;
@@ -107,7 +107,7 @@ bool Operation::beginBlock(Run& run) {
     modal_ = before;
     return false;
   }
-  if (run.machine.alarms.any()) {
+  if (run.machine.hasAlarm()) {
     modal_ = before;
     state_ = RunState::Hold;
     return false;

@@ -68,8 +68,9 @@ public:
   RunState state() const { return state_; }
   uint32_t programNumber() const { return program_.number; }
   uint32_t sequence() const { return sequence_; }
-  double speed() const { return speed_; }                       // mm/min along the path, in the last slot
-  double absolute(const Machine& machine, uint32_t axis) const; // mm, workpiece coordinates
+  double speed() const { return speed_; }                            // mm/min along the path, in the last slot
+  double absolute(const Machine& machine, uint32_t axis) const;      // mm, workpiece coordinates
+  int64_t distanceToGo(const Machine& machine, uint32_t axis) const; // units, of the block in progress
 
 private:
   struct Run; // the parameters of one step

@@ -48,6 +48,7 @@ public:
   // Called for every slice, which is a slot.
   void beforePart(runtime::Instance& instance) override {
     if (simulated_ && !instance.faulted()) {
+      simulator_.setMessageAlarm(control_.showsAlarm(instance));
       simulator_.step(*control_.signals());
       answerLowSpeed(instance, *control_.signals());
     }

@@ -51,7 +51,7 @@ void Simulator::step(const nc::pmc::SignalsIo& io) {
   io.setF(0, 6, io.g(8, 4)); // SA
   io.setF(1, 7, true);       // MA
   io.setF(1, 1, resetSlots_ != 0);
-  io.setF(1, 0, machine_.alarms.any());
+  io.setF(1, 0, machine_.hasAlarm());
   if (cnc_->writeOwn != nullptr) cnc_->writeOwn(io, machine_);
 }
 

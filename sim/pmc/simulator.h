@@ -31,6 +31,8 @@ public:
   std::string loadProgram(std::string_view text, bool mdi);
   void pressReset() { resetKey_ = true; }
   void raiseAlarm(uint32_t number) { machine_.alarms.raise(number); }
+  // Whether a message of the program puts the CNC into the alarm state; it lasts while the message is shown.
+  void setMessageAlarm(bool shown) { machine_.messageAlarm = shown; }
   void turnWheel(uint32_t wheel, int64_t pulses) { manual_.turnWheel(wheel, pulses); }
 
   void answer(const core::ServiceRequest& request, const nc::pmc::SignalsIo& io, core::ServiceReply& reply) {

@@ -118,7 +118,7 @@ private:
     return reply;
   }
 
-  // Decimal places of a macro variable: of a write behind its value, where the length has room for them.
+  // Decimal places of a macro variable: of a write after its value, where the length has room for them.
   static uint64_t placesOf(const Window& window) noexcept {
     if (!window.write || window.length < kValueBytes + 2) return window.attribute;
     return static_cast<uint64_t>(window.request->args[nc::fanuc::kWriteDataAt + 1]) & UINT16_MAX;

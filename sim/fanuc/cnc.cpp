@@ -103,6 +103,7 @@ const Cnc& fanucCnc() {
       .spindle = &spindle,
       .mostM = 5,
       .stopsByM0 = false,
+      .resetsByRewind = true,
       .positionsSpindle = false,
       .cancelsOverride = true,
       .tenthOfStep = false,

@@ -94,6 +94,7 @@ const Cnc& gskCnc() {
       .spindle = &spindle,
       .mostM = 3,
       .stopsByM0 = true,
+      .resetsByRewind = false,
       .positionsSpindle = true,
       .cancelsOverride = false,
       .tenthOfStep = true,

@@ -99,6 +99,7 @@ struct Cnc {
 
   uint32_t mostM = 3;            // M codes of a block
   bool stopsByM0 = false;        // the CNC stops at M0, and at M1 with SOP (G8.2); else the program stops it
+  bool resetsByRewind = false;   // RRW (G8.6) resets, as ERS does
   bool positionsSpindle = false; // M18 and M23
   bool cancelsOverride = false;  // OVC (G6.4)
   bool tenthOfStep = false;      // MPSELT (G19.3)

@@ -55,9 +55,10 @@ void Simulator::step(const nc::pmc::SignalsIo& io) {
   if (cnc_->writeOwn != nullptr) cnc_->writeOwn(io, machine_);
 }
 
-// *ESP, ERS and the RESET key (l.5245-5255).
+// *ESP, ERS, RRW and the RESET key (l.5245-5255).
 void Simulator::followReset(const nc::pmc::SignalsIo& io) {
-  if (!io.g(8, 4) || io.g(8, 7) || resetKey_) {
+  const bool external = io.g(8, 7) || (cnc_->resetsByRewind && io.g(8, 6));
+  if (!io.g(8, 4) || external || resetKey_) {
     machine_.alarms.clear();
     machine_.axes.clearOverTravel();
     operation_.reset(io, machine_);

@@ -11,6 +11,8 @@ import folders
 # What a host sees of the runtime: its headers, and what works with files and the clock of this computer.
 HOST = ("rtlib/abi", "rtlib/text", "rtlib/load", "rtlib/run/clock.h", "rtlib/run/realtime.h")
 
+DIALECTS = ("fanuc", "gsk", "nct", "technol")
+
 # Folder -> what it may include besides itself; the longest folder that a file is in counts. "rung/NAME.h" is rtlib/abi.
 LAYERS = {
     "rtlib": (),
@@ -40,7 +42,7 @@ LAYERS = {
     "frontend/network/lower": ("frontend", "ir/support", "ir/core", "rtlib/nc/service.h", "rtlib/abi", "rtlib/text"),
     **{f"frontend/dialects/{dialect}": ("frontend/syntax", "frontend/table", "frontend/sema", "frontend/lower", "frontend/ladder",
                                         "frontend/network", "frontend/network/lower", "frontend/dialects/dialect.h", "ir/support", "ir/core", "rtlib/abi", "rtlib/text",
-                                        "rtlib/nc") for dialect in ("gsk", "nct", "technol")},
+                                        "rtlib/nc") for dialect in DIALECTS},
     "machine/host": ("rtlib/abi", "rtlib/text", "rtlib/core/handover.h", "rtlib/load", "rtlib/run", "rtlib/nc", "rtlib/nc/control"),
     "machine/io": ("machine/host", "rtlib"),
     **{f"machine/{folder}": ("machine/host", "machine/io", "machine/control", "machine/compile", "machine/command-line", *HOST)
@@ -81,7 +83,7 @@ NAMESPACES = {
     **{f"rtlib/{folder}": "runtime" for folder in ("load", "run", "change", "retain", "record")},
     "ir": "ir", "ir/support": "", "frontend": "frontend", "frontend/ladder": "frontend::ladder",
     "frontend/network": "frontend::network",
-    **{f"frontend/dialects/{dialect}": f"frontend::{dialect}" for dialect in ("gsk", "nct", "technol")},
+    **{f"frontend/dialects/{dialect}": f"frontend::{dialect}" for dialect in DIALECTS},
     "codegen": "codegen", "compiler": "compiler",
     "machine/host": "host", "machine/io": "io", "machine/control": "control", "machine/compile": "compile", "machine/rung-compile": "rung_compile",
     "machine/command-line": "cli", "machine/rung-run": "rung_run", "machine/rung-hal": "hal", "machine/rungctl": "rungctl",
@@ -92,8 +94,9 @@ NAMESPACES = {
 NAMESPACE = re.compile(r"^namespace rung(?:::([\w:]+))?(?= *\{)", re.MULTILINE)
 
 # The name of a dialect as a word or a part of an identifier (gskNames, kNctTimeout, TECHNOL's); not in "function".
-DIALECT_NAME = re.compile(r"(?<![A-Za-z])(?:gsk|nct|technol)(?![a-z])|(?:Gsk|Nct|Technol)(?![a-z])"
-                          r"|(?<![A-Z])(?:GSK|NCT|TECHNOL)(?![A-Z])")
+DIALECT_NAME = re.compile("|".join((rf"(?<![A-Za-z])(?:{'|'.join(DIALECTS)})(?![a-z])",
+                                    rf"(?:{'|'.join(name.capitalize() for name in DIALECTS)})(?![a-z])",
+                                    rf"(?<![A-Z])(?:{'|'.join(DIALECTS).upper()})(?![A-Z])")))
 
 # Lowerings of programs without errors, which report nothing.
 CHECKED_BEFORE = ("frontend/dialects/technol/lower",)

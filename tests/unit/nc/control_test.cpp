@@ -44,8 +44,8 @@ TEST(ControlTexts, OfMemory) {
   EXPECT_EQ(nct->shownText("č1234"), "č1234");
 }
 
-TEST(ControlSlots, AreThoseOfGsk) {
-  EXPECT_TRUE(makeControl("gsk")->runsInSlots());
+TEST(ControlSlots, AreThoseOfThePmcFamily) {
+  for (const char* dialect : {"fanuc", "gsk"}) EXPECT_TRUE(makeControl(dialect)->runsInSlots()) << dialect;
   for (const char* dialect : {"nct", "technol", "other"}) EXPECT_FALSE(makeControl(dialect)->runsInSlots()) << dialect;
 }
 

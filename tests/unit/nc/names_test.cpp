@@ -15,9 +15,9 @@ using namespace rung::runtime;
 using namespace rung::nc;
 using rung::test::TestProgram;
 
-class PmcNames : public testing::Test {
+class GskNames : public testing::Test {
 protected:
-  PmcNames() {
+  GskNames() {
     test.dialect = "gsk";
     test.memorySize = 512;
     x = test.addSpace("X", 1, {{0, 16, 0, RUNG_REPR_BYTE_PER_BIT}});
@@ -33,7 +33,7 @@ protected:
   uint32_t x, d;
 };
 
-TEST_F(PmcNames, Addresses) {
+TEST_F(GskNames, Addresses) {
   EXPECT_EQ(at("X002.1"), bitRef(x, 2, 1));
   EXPECT_EQ(at("X2.1"), bitRef(x, 2, 1));
   EXPECT_EQ(at("D10"), intRef(d, 10, 8));
@@ -42,7 +42,7 @@ TEST_F(PmcNames, Addresses) {
   EXPECT_EQ(at("D28:4"), intRef(d, 28, 32));
 }
 
-TEST_F(PmcNames, Symbols) {
+TEST_F(GskNames, Symbols) {
   EXPECT_EQ(at("START"), bitRef(x, 2, 1));
   EXPECT_EQ(at("COUNT"), intRef(d, 10, 8));
   EXPECT_EQ(at("COUNT.3"), bitRef(d, 10, 3));
@@ -51,14 +51,14 @@ TEST_F(PmcNames, Symbols) {
   EXPECT_EQ(at("@NEXT"), intRef(d, 30, 16));
 }
 
-TEST_F(PmcNames, WhatIsNoPlace) {
+TEST_F(GskNames, WhatIsNoPlace) {
   for (const char* name :
        {"",        "X",   "X16", "X2.8",  "X2.1.1", "D10:3", "D10:8", "D29:4", "D32",          "Q1",
         "START.1", "D-1", "D 1", "start", "D10:",   "D10.",  ".1",    ":2",    "D99999999999", "D4294967297"})
     EXPECT_FALSE(at(name)) << name;
 }
 
-TEST_F(PmcNames, FallbackServesWhatTheProgramDoesNotKnow) {
+TEST_F(GskNames, FallbackServesWhatTheProgramDoesNotKnow) {
   const NameFallback signals = [&](std::string_view name) -> std::optional<Ref> {
     if (name == "SIGNAL" || name == "START") return intRef(d, 4, 8);
     return std::nullopt;
@@ -68,7 +68,7 @@ TEST_F(PmcNames, FallbackServesWhatTheProgramDoesNotKnow) {
   EXPECT_EQ(resolve(test.program, "START", signals), bitRef(x, 2, 1)); // the program's own goes before
 }
 
-TEST_F(PmcNames, Descriptions) {
+TEST_F(GskNames, Descriptions) {
   EXPECT_EQ(describe(test.program, bitRef(x, 2, 1)), "X2.1 (START)");
   EXPECT_EQ(describe(test.program, bitRef(x, 2, 2)), "X2.2");
   EXPECT_EQ(describe(test.program, intRef(d, 10, 8)), "D10 (COUNT)");
@@ -77,7 +77,7 @@ TEST_F(PmcNames, Descriptions) {
   EXPECT_EQ(describe(test.program, bitRef(9, 2, 1)), "no space");
 }
 
-TEST_F(PmcNames, OfPlaces) {
+TEST_F(GskNames, OfPlaces) {
   EXPECT_EQ(placeName(test.program, bitRef(x, 2, 1)), "START");
   EXPECT_EQ(placeName(test.program, bitRef(x, 2, 2)), "X2.2");
   EXPECT_EQ(placeName(test.program, intRef(d, 10, 16)), "D10");
@@ -85,6 +85,40 @@ TEST_F(PmcNames, OfPlaces) {
   EXPECT_EQ(cellAddress(test.program, intRef(d, 10, 8)), "D10");
   EXPECT_EQ(cellAddress(test.program, bitRef(x, 2, 1)), "X2.1");
   EXPECT_TRUE(hasAddresses(test.program));
+}
+
+class FanucNames : public testing::Test {
+protected:
+  FanucNames() {
+    test.dialect = "fanuc";
+    test.memorySize = 64;
+    r = test.addPacked("R", 1, 32, 0);
+    test.addSymbol("*-L1_P01", r, 2, RUNG_TYPE_BIT, 1);
+    test.addSymbol("mSP_Run", r, 3, RUNG_TYPE_BIT, 0);
+    test.addSymbol("Mode", r, 4, RUNG_TYPE_I8);
+    test.addSymbol("MODE", r, 5, RUNG_TYPE_I8); // not by a FANUC compiler
+    test.link();
+  }
+  std::optional<Ref> at(std::string_view name) const { return resolve(test.program, name); }
+  TestProgram test;
+  uint32_t r;
+};
+
+TEST_F(FanucNames, EitherCase) {
+  EXPECT_EQ(at("msp_RUN"), bitRef(r, 3, 0));
+  EXPECT_EQ(at("*-l1_p01"), bitRef(r, 2, 1));
+  EXPECT_EQ(at("Mode"), intRef(r, 4, 8)); // the exact name goes before
+  EXPECT_EQ(at("MODE"), intRef(r, 5, 8));
+  EXPECT_EQ(at("Mode.3"), bitRef(r, 4, 3));
+  EXPECT_EQ(at("r7.1"), bitRef(r, 7, 1));
+  EXPECT_EQ(at("r7:2"), intRef(r, 7, 16));
+  EXPECT_FALSE(at("q7"));
+  EXPECT_FALSE(at("mod"));
+}
+
+TEST_F(FanucNames, AreShownAsWritten) {
+  EXPECT_EQ(placeName(test.program, bitRef(r, 3, 0)), "mSP_Run");
+  EXPECT_EQ(describe(test.program, bitRef(r, 2, 1)), "R2.1 (*-L1_P01)");
 }
 
 class NctNames : public testing::Test {

@@ -33,7 +33,7 @@ TEST(Services, WithoutAnArrowNoAnswerIsTaken) {
 }
 
 TEST(Services, AreFoundByTheirTexts) {
-  for (const char* dialect : {"gsk", "nct", "technol"}) {
+  for (const char* dialect : {"fanuc", "gsk", "nct", "technol"}) {
     uint32_t kind = 1;
     for (; const ServiceRow* row = serviceOf(dialect, kind); ++kind) {
       EXPECT_EQ(row->kind, kind) << row->text;

@@ -1,4 +1,5 @@
 // The generated signal tables: all rows of the CSV, places, no overlaps, lookup.
+#include "rtlib/nc/fanuc/signals.h"
 #include "rtlib/nc/gsk/signals.h"
 #include "rtlib/nc/nct/signals.h"
 #include "rtlib/nc/technol/signals.h"
@@ -69,13 +70,14 @@ size_t rows(const char* dialect) {
 }
 
 TEST(Signals, EveryRowIsASignal) {
+  EXPECT_EQ(fanucSignals().size(), rows("fanuc"));
   EXPECT_EQ(gskSignals().size(), rows("gsk"));
   EXPECT_EQ(nctSignals().size(), rows("nct"));
   EXPECT_EQ(technolSignals().size(), rows("technol"));
 }
 
 TEST(Signals, EveryNameIsFound) {
-  for (const SignalTable* table : {&gskSignals(), &nctSignals(), &technolSignals()}) {
+  for (const SignalTable* table : {&fanucSignals(), &gskSignals(), &nctSignals(), &technolSignals()}) {
     ASSERT_EQ(table->byName.size(), table->size());
     for (const Signal& s : *table) {
       const Signal* found = findSignal(*table, s.symbol, s.area);
@@ -86,7 +88,7 @@ TEST(Signals, EveryNameIsFound) {
 }
 
 TEST(Signals, NamesAreUniqueInTheirArea) {
-  for (const SignalTable* table : {&gskSignals(), &nctSignals(), &technolSignals()}) {
+  for (const SignalTable* table : {&fanucSignals(), &gskSignals(), &nctSignals(), &technolSignals()}) {
     std::set<std::pair<std::string, std::string>> seen;
     for (const Signal& s : *table) {
       std::string name = s.symbol;
@@ -105,7 +107,7 @@ TEST(Signals, NotesAreNoPartOfAMeaning) {
   EXPECT_EQ(noteOf(get(gskSignals(), "KEY_AUTO")), "");
   EXPECT_EQ(meaningWithNote(get(gskSignals(), "KEY_AUTO")), "panel key: automatic mode");
   EXPECT_EQ(noteOf(get(technolSignals(), "Pos6Shift_Ax")), "unit printed as mm/min");
-  for (const SignalTable* table : {&gskSignals(), &nctSignals(), &technolSignals()})
+  for (const SignalTable* table : {&fanucSignals(), &gskSignals(), &nctSignals(), &technolSignals()})
     for (const Signal& s : *table)
       for (const char* word : {"appendix", "misprint", "made unique", "symbol proposed", " // "})
         EXPECT_EQ(std::string_view(s.meaning).find(word), std::string_view::npos) << s.symbol << ": " << s.meaning;
@@ -118,7 +120,8 @@ TEST(Signals, UnknownNameIsNull) {
   EXPECT_EQ(findSignal(technolSignals(), "MPXPI", "W"), nullptr);
 }
 
-TEST(Signals, CaseMattersExceptInTechnol) {
+TEST(Signals, CaseMattersWhereTheDialectSays) {
+  EXPECT_EQ(&get(fanucSignals(), "*esp"), &get(fanucSignals(), "*ESP"));
   EXPECT_EQ(findSignal(gskSignals(), "key_auto"), nullptr);
   EXPECT_EQ(findSignal(nctSignals(), "mb_start"), nullptr);
   EXPECT_EQ(&get(technolSignals(), "mpxpi"), &get(technolSignals(), "MPXPI"));
@@ -146,6 +149,33 @@ TEST(GskSignals, AreasAndDirectionsAgree) {
     EXPECT_LE(s.byteOffset + std::max(1u, elementBytes(s.type)), bytes.at(s.area[0])) << s.symbol;
     EXPECT_FALSE(s.inferred) << s.symbol;
   }
+}
+
+TEST(FanucSignals, Addresses) {
+  const SignalTable& t = fanucSignals();
+  EXPECT_EQ(place(get(t, "*ESP")), "G 8.4"); // not X8.4
+  EXPECT_EQ(place(get(t, "X_ESP")), "X 8.4");
+  EXPECT_EQ(place(get(t, "BF")), "F 7.7"); // not the old address
+  EXPECT_EQ(place(get(t, "ESTB")), "G 2.7");
+  EXPECT_EQ(place(get(t, "EBUFC")), "G 166.7"); // "as group A"
+  EXPECT_EQ(place(get(t, "EBSYD")), "F 139.7");
+  EXPECT_EQ(place(get(t, "SRVB")), "G 74.4");
+  EXPECT_EQ(get(t, "M00~M31").type, SignalType::Dword);
+  EXPECT_EQ(get(t, "*JV0~*JV15").type, SignalType::Word);
+  EXPECT_EQ(get(t, "EBUFC").manualLine, 0u); // no manual is at hand
+}
+
+TEST(FanucSignals, EachSaysHowCertainItIs) {
+  size_t high = 0;
+  for (const Signal& s : fanucSignals()) {
+    const std::string_view certainty = s.group;
+    EXPECT_TRUE(certainty == "high" || certainty == "medium") << s.symbol;
+    high += certainty == "high" ? 1 : 0;
+    EXPECT_EQ(s.direction == Direction::In, s.area[0] == 'X' || s.area[0] == 'F') << s.symbol;
+    EXPECT_LT(s.byteOffset, 768u) << s.symbol; // of path 1
+  }
+  EXPECT_STREQ(get(fanucSignals(), "FIN").group, "high");
+  EXPECT_GT(high, 700u);
 }
 
 TEST(NctSignals, AllocationIsDense) {

@@ -16,7 +16,7 @@
 #include "ir/support/temporary_folder.h"
 #include "sim/nct/channels.h"
 #include "tests/support/cases.h"
-#include "tests/unit/sim/gsk_machine.h"
+#include "tests/unit/sim/pmc_machine.h"
 #include "tests/unit/sim/technol_machine.h"
 #include "tools/scenario/values.h"
 
@@ -26,15 +26,17 @@ namespace {
 using Pairs = std::vector<std::pair<std::string, std::string>>;
 
 // The simulated controls, each with what its cases may say.
-struct Gsk {
-  static std::unique_ptr<SimulatedNc> bare() { return makeSimulatedGsk(); }
-  Gsk(const Pairs& config, const Pairs&) : machine(config) {}
+template <const char* kDialect>
+struct Pmc {
+  static std::unique_ptr<SimulatedNc> bare() { return makeSimulatedNc(kDialect); }
+  Pmc(const Pairs& config, const Pairs&) : machine(kDialect, config) {}
   SimulatedNc& nc() { return machine.nc(); }
   std::string event(const std::string& name, const std::vector<NcArgument>& keys) {
     return nc().event(machine.instance(), name, keys);
   }
-  test::GskMachine machine;
+  test::PmcMachine machine;
 };
+constexpr char kFanuc[] = "fanuc", kGsk[] = "gsk";
 
 struct Technol {
   static std::unique_ptr<SimulatedNc> bare() { return makeSimulatedTechnol(); }
@@ -130,7 +132,8 @@ std::string partProgramOfNct(const std::string& text) {
 }
 
 std::string become(const std::string& control, const std::string& input) {
-  if (control == "gsk") return Conversation<Gsk>().run(input);
+  if (control == "fanuc") return Conversation<Pmc<kFanuc>>().run(input);
+  if (control == "gsk") return Conversation<Pmc<kGsk>>().run(input);
   if (control == "technol") return Conversation<Technol>().run(input);
   if (control == "nct-programs") return partProgramOfNct(input);
   return "there is no such control: " + control;

@@ -1,5 +1,5 @@
 // What the simulated CNC takes, and when it refuses it. What it says of wrong input is a golden (golden_test.cpp).
-#include "tests/unit/sim/gsk_machine.h"
+#include "tests/unit/sim/pmc_machine.h"
 
 namespace rung::sim::test {
 namespace {

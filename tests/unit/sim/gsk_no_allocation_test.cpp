@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/count_allocations.h"
-#include "tests/unit/sim/gsk_machine.h"
+#include "tests/unit/sim/pmc_machine.h"
 
 namespace {
 

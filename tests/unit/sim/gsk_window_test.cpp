@@ -1,5 +1,5 @@
 // Window requests against the simulated CNC: end codes, scales, when the answer comes (man. l.8482-8945).
-#include "tests/unit/sim/gsk_machine.h"
+#include "tests/unit/sim/pmc_machine.h"
 
 namespace rung::sim::test {
 namespace {

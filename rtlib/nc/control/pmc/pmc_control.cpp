@@ -214,11 +214,11 @@ std::vector<ShownMessage> PmcControl::messages(const runtime::Instance& instance
 }
 
 bool PmcControl::shows(const runtime::Instance& instance, std::span<const ShownMessage> these) const noexcept {
+  const bool listed = model_->messages == pmc::MessageRule::ByTextList;
   size_t count = 0;
-  const bool same = forMessages(instance, [&](uint32_t, uint32_t number) {
+  const bool same = forMessages(instance, [&](uint32_t key, uint32_t number) {
     if (count == these.size() || these[count].number != number) return false;
-    ++count;
-    return true;
+    return these[count++].value == (listed ? key : 0);
   });
   return same && count == these.size();
 }

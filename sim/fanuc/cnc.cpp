@@ -1,5 +1,5 @@
-// FANUC's CNC among the simulated ones of the PMC family (sim/pmc). What no source at hand says is recalled; the page
-// of the simulation (docs/dialects/simulated-nc-fanuc.md) lists it.
+// FANUC's CNC among the simulated ones of the PMC family (sim/pmc). What no source says is recalled; the page of the
+// simulation (docs/dialects/simulated-nc-fanuc.md) lists it.
 #include "rtlib/nc/fanuc/model.h"
 #include "rtlib/nc/fanuc/window_functions.h"
 #include "sim/fanuc/window.h"

@@ -33,7 +33,7 @@ bool isVariable(const WindowDialect::Window& window) noexcept {
 // each.
 class FanucWindows final : public WindowDialect {
 public:
-  constexpr FanucWindows() : WindowDialect(1000) {} // 0.001 mm
+  constexpr FanucWindows() : WindowDialect({.stepsPerMm = 1000, .rapidWithoutSpeed = true}) {}
 
   const WindowFunction* find(uint64_t code) const noexcept override {
     return nc::pmc::findWindowFunction(nc::fanuc::windowFunctions(), code);
@@ -63,7 +63,7 @@ public:
   std::optional<Operation> operationOf(const Window& window) const override {
     const std::optional<Quantity> quantity = quantityOf(window);
     if (!quantity) return std::nullopt;
-    const int64_t data = window.write ? window.request->args[nc::fanuc::kWriteDataAt] : 0;
+    const int64_t data = window.write ? valueOf(window) : 0;
     return Operation{.quantity = *quantity,
                      .write = window.write,
                      .number = static_cast<uint32_t>(window.number),
@@ -116,6 +116,14 @@ private:
     for (uint32_t axis = 0; axis < axes; ++axis)
       put(reply, axis, std::llround(live.machine[axis].load(std::memory_order_relaxed) * window.function->scale));
     return reply;
+  }
+
+  // The value of a write: the bytes of the first word that count.
+  static int64_t valueOf(const Window& window) noexcept {
+    const auto word = static_cast<uint32_t>(window.request->args[nc::fanuc::kWriteDataAt]);
+    return window.length == 1   ? static_cast<int8_t>(word)
+           : window.length == 2 ? static_cast<int16_t>(word)
+                                : static_cast<int32_t>(word);
   }
 
   // Decimal places of a macro variable: of a write after its value, where the length has room for them.

@@ -29,7 +29,7 @@ bool isOutside(const WindowField& field, uint64_t value) noexcept {
 
 class GskWindows final : public WindowDialect {
 public:
-  constexpr GskWindows() : WindowDialect(10000) {} // of data 2 (P54)
+  constexpr GskWindows() : WindowDialect({.stepsPerMm = 10000}) {} // data 2 (P54)
 
   const WindowFunction* find(uint64_t code) const noexcept override {
     return nc::pmc::findWindowFunction(nc::gsk::windowFunctions(), code);

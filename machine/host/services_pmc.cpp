@@ -29,7 +29,7 @@ std::optional<Operation> PmcTranslation::moveOf(const int64_t* args) const noexc
   Operation move{.quantity = Quantity::AxisMove,
                  .write = true,
                  .axis = static_cast<uint32_t>(args[0]),
-                 .value = static_cast<double>(args[3]) / dialect_->stepsPerMm(),
+                 .value = static_cast<double>(args[3]) / dialect_->axes().stepsPerMm,
                  .speed = static_cast<double>(args[2]),
                  .untilOver = true};
   const auto turns = static_cast<double>(static_cast<int16_t>(args[2]));
@@ -54,7 +54,10 @@ std::optional<Operation> PmcTranslation::moveOf(const int64_t* args) const noexc
     break;
   default: return std::nullopt;
   }
-  const bool needsSpeed = move.motion != MotionKind::Stop && args[1] != nc::pmc::kAxisManualReturn;
+  const bool isRapid = args[1] == nc::pmc::kAxisRapid || args[1] == nc::pmc::kAxisReference1 ||
+                       args[1] == nc::pmc::kAxisMachineCoordinate;
+  const bool needsSpeed = move.motion != MotionKind::Stop && args[1] != nc::pmc::kAxisManualReturn &&
+                          !(isRapid && dialect_->axes().rapidWithoutSpeed);
   return needsSpeed && move.speed == 0 ? std::nullopt : std::optional(move);
 }
 

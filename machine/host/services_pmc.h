@@ -18,9 +18,14 @@ public:
     const nc::pmc::WindowFunction* function; // null: the dialect does not know the code
   };
 
-  explicit constexpr WindowDialect(double stepsPerMm) : stepsPerMm_(stepsPerMm) {}
-  // Steps of distances and coordinates of PMC axis control in a mm or degree.
-  double stepsPerMm() const { return stepsPerMm_; }
+  // PMC axis control.
+  struct Axes {
+    double stepsPerMm = 0;          // steps of distances and coordinates in a mm or degree
+    bool rapidWithoutSpeed = false; // a rapid command of speed 0 has that of the CNC
+  };
+
+  explicit constexpr WindowDialect(const Axes& axes) : axes_(axes) {}
+  const Axes& axes() const { return axes_; }
 
   virtual const nc::pmc::WindowFunction* find(uint64_t code) const noexcept = 0;
   // What is wrong with a request, as an end code; 0: nothing.
@@ -37,7 +42,7 @@ protected:
   ~WindowDialect() = default;
 
 private:
-  double stepsPerMm_;
+  Axes axes_;
 };
 
 class PmcTranslation final : public Translation {

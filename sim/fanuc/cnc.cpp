@@ -122,6 +122,7 @@ const Cnc& fanucCnc() {
       .axisSkip = {4, 7},
       .rapidByFeed = false,
       .rapidOfParameter = true,
+      .windowsOfPath = nc::fanuc::kWindowsOfPath,
       .windowFunctions = &nc::fanuc::windowFunctions,
       .answer = &fanuc::answerWindow,
   };

@@ -113,6 +113,7 @@ const Cnc& gskCnc() {
       .axisSkip = {13, 6}, // l.8186
       .rapidByFeed = true, // l.8156
       .rapidOfParameter = false,
+      .windowsOfPath = 0,
       .windowFunctions = &nc::gsk::windowFunctions,
       .answer = &gsk::answerWindow,
   };

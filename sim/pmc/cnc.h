@@ -122,6 +122,7 @@ struct Cnc {
   bool rapidByFeed = false;      // EROV (G150.7): the rapid override is G151
   bool rapidOfParameter = false; // a rapid command without a speed has that of the parameter
 
+  uint32_t windowsOfPath = 0; // codes of window functions of one path; 0: there is a single path
   std::span<const nc::pmc::WindowFunction> (*windowFunctions)() = nullptr;
   // Answers a window request of the program.
   void (*answer)(const core::ServiceRequest& request, const Window& window, core::ServiceReply& reply) = nullptr;

@@ -80,9 +80,7 @@ protected:
   // answer: in scripted mode the function is not provided (inventory §18).
   bool serve(runtime::Instance&, const core::ServiceRequest& request, core::ServiceReply& reply) override {
     if (!isWindow(request)) return false;
-    const nc::pmc::WindowFunction* function =
-        nc::pmc::findWindowFunction(cnc_->windowFunctions(), static_cast<uint64_t>(request.args[0]));
-    if (function == nullptr || function->speed != nc::pmc::WindowSpeed::High) return false;
+    if (!isHighSpeed(static_cast<uint32_t>(request.args[0]))) return false;
     reply = answerOf(request, control_.signals());
     return true;
   }
@@ -131,6 +129,13 @@ private:
   static bool isWindow(const core::ServiceRequest& request) {
     const auto kind = static_cast<nc::pmc::ServiceKind>(request.name->kind);
     return kind == nc::pmc::ServiceKind::ReadWindow || kind == nc::pmc::ServiceKind::WriteWindow;
+  }
+
+  // A function of another path, which the CNC does not have, is as fast as that of the first one.
+  bool isHighSpeed(uint32_t code) const {
+    const uint32_t ofPath = cnc_->windowsOfPath == 0 ? code : code % cnc_->windowsOfPath;
+    const nc::pmc::WindowFunction* function = nc::pmc::findWindowFunction(cnc_->windowFunctions(), ofPath);
+    return function != nullptr && function->speed == nc::pmc::WindowSpeed::High;
   }
 
   core::ServiceReply answerOf(const core::ServiceRequest& request, const nc::pmc::SignalsIo* signals) {

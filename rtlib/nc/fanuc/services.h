@@ -1,8 +1,8 @@
 // The services that a program of the FANUC PMC requests from its CNC (WINDR, WINDW), and that its control requests for
 // it (AXCTL).
 //
-// Data are handed over as words of four bytes, low byte first: `data` is the first of them, `data-2` the next. A length
-// of 1 or 2 bytes is in `data` alone, with its sign; of other lengths the last word holds the rest.
+// Data are handed over as words of four bytes, low byte first, as they lie in the control block: `data` is the first of
+// them, `data-2` the next. The length says how many bytes count; what is beyond it, and the sign of a word, do not.
 #pragma once
 #include "rtlib/nc/pmc/services.h"
 #include "rtlib/nc/service.h"

@@ -1,6 +1,6 @@
 // The functions of the FANUC window, which WINDR and WINDW request from the CNC. Used by the compiler to know their
 // speed, by the simulated CNC to answer, and by the reference page. The codes are those of path 1; path p adds
-// 1000 (p - 1), and a code of another path belongs to no function here.
+// kWindowsOfPath (p - 1), and a code of another path belongs to no function here.
 #pragma once
 #include "rtlib/nc/pmc/window_functions.h"
 
@@ -16,6 +16,8 @@ enum WindowEnd : int16_t {
   kWindowRunning = -10, // ACT must stay 1
   kWindowBusy = -1,     // another low-speed request runs
 };
+
+inline constexpr uint32_t kWindowsOfPath = 1000;
 
 inline constexpr uint16_t kWindowAllAxes = 0xFFFF; // -1 as an attribute
 

@@ -84,11 +84,12 @@ TEST_F(FanucServices, LowSpeedFunctionsAreOperations) {
   EXPECT_EQ(offset->quantity, Quantity::ToolLengthWear);
   EXPECT_EQ(offset->number, 5u);
   EXPECT_FALSE(offset->write);
-  const auto origin = operation(ServiceKind::WriteWindow, {16, 4, 1, 3, -1500});
+  const auto origin = operation(ServiceKind::WriteWindow, {16, 4, 1, 3, 0xFFFFFFFF & -1500});
   ASSERT_TRUE(origin);
   EXPECT_EQ(origin->quantity, Quantity::WorkOffset);
   EXPECT_EQ(origin->axis, 2u);
   EXPECT_EQ(origin->value, -1.5);
+  EXPECT_EQ(operation(ServiceKind::WriteWindow, {14, 2, 1, 3, 0x5555FFFF})->value, -0.001); // two bytes count
   const auto macro = operation(ServiceKind::WriteWindow, {22, 6, 500, 0, 1234, 2});
   ASSERT_TRUE(macro);
   EXPECT_EQ(macro->quantity, Quantity::MacroVariable);
@@ -126,6 +127,10 @@ TEST_F(FanucServices, MovesAreInMicrometres) {
   EXPECT_EQ(move->axis, 1u);
   EXPECT_EQ(move->value, -2.5);
   EXPECT_EQ(move->speed, 600);
+  const auto rapid = operation(ServiceKind::MoveAxis, {0, nc::pmc::kAxisRapid, 0, 1000});
+  ASSERT_TRUE(rapid);
+  EXPECT_EQ(rapid->speed, 0); // that of the CNC
+  EXPECT_FALSE(operation(ServiceKind::MoveAxis, {0, nc::pmc::kAxisFeed, 0, 1000}));
   EXPECT_EQ(atOnce(ServiceKind::MoveAxis, {1, nc::pmc::kAxisFeed, 600, -2500}), RUNG_QUEUE);
 }
 

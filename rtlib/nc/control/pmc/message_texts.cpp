@@ -1,0 +1,115 @@
+// Places and texts of messages, and what is rare (see messages.h).
+#include "rtlib/change/forcing.h"
+#include "rtlib/load/program_info.h"
+#include "rtlib/nc/control/pmc/messages.h"
+#include "rtlib/text/number.h"
+
+namespace rung::nc {
+namespace {
+
+// FANUC: the text in another language lies this many A bits further, as the word K918 says.
+constexpr uint32_t kShiftAt = 918;
+
+// The number at the beginning of a text of FANUC's list, "1000 DOOR OPEN".
+uint32_t numberOf(std::string_view text) {
+  return text::numberIn<uint32_t>(text.substr(0, text.find(' '))).value_or(0);
+}
+// The text without the number.
+std::string_view withoutNumber(std::string_view text) {
+  const size_t blank = text.find(' ');
+  return blank == std::string_view::npos ? std::string_view() : text.substr(blank + 1);
+}
+
+// Appends as much as fits.
+void put(std::string_view text, std::span<char> out, size_t& size) {
+  const size_t count = std::min(text.size(), out.size() - size);
+  std::copy_n(text.data(), count, out.data() + size);
+  size += count;
+}
+
+} // namespace
+
+PmcMessages::Places::Places(const rung_program& program, pmc::MessageRule rule)
+    : area(runtime::findSpace(program, "A")) {
+  if (rule == pmc::MessageRule::ByTextList) readTexts(program);
+  if (area == RUNG_NONE) return;
+  const rung_space& space = program.spaces[area];
+  bytes = std::min(space.byte_count, kMostBytes);
+  for (const rung_range& range : std::span(space.ranges, space.range_count)) {
+    if (range.first_byte >= bytes) break;
+    pieces.push_back({.first = range.first_byte,
+                      .count = std::min(range.byte_count, bytes - range.first_byte),
+                      .offset = range.offset,
+                      .expanded = range.repr == RUNG_REPR_BYTE_PER_BIT});
+    for (uint32_t i = 0; i < pieces.back().size(); ++i)
+      written.push_back(runtime::writtenBits(program, range.offset + i));
+  }
+}
+
+void PmcMessages::Places::readTexts(const rung_program& program) {
+  display = runtime::findSpace(program, "@DISPB");
+  shift = runtime::findSpace(program, "K");
+  if (shift != RUNG_NONE && program.spaces[shift].byte_count < kShiftAt + 2) shift = RUNG_NONE;
+  for (const rung_message_text& text : std::span(program.texts, program.text_count)) {
+    if (text.number == 0 || text.number > 8 * kMostBytes) continue;
+    if (text.number > numbers.size()) numbers.resize(text.number);
+    numbers[text.number - 1] = numberOf(text.text);
+  }
+}
+
+void PmcMessages::powerOn() {
+  known_.fill(0);
+  hasSeen_ = false;
+}
+
+void PmcMessages::use(uint8_t* block, const Places& places) noexcept {
+  places_ = &places;
+  hasSeen_ = false;
+  const uint8_t* written = places.written.data();
+  for (const Piece& piece : places.pieces)
+    for (uint32_t i = 0; i < piece.size(); ++i) block[piece.offset + i] &= *written++;
+}
+
+uint32_t PmcMessages::shift(const runtime::Instance& instance) const noexcept {
+  if (places_->shift == RUNG_NONE) return 0;
+  return static_cast<uint32_t>(instance.memory().read(places_->shift, kShiftAt, 2));
+}
+
+PmcMessages::Known PmcMessages::known(uint32_t bit, uint32_t shift) const noexcept {
+  if (!isListed()) return {bit, bit};
+  const std::vector<uint32_t>& numbers = places_->numbers;
+  const auto numberAt = [&](uint32_t key) { return key <= numbers.size() ? numbers[key - 1] : 0; };
+  const uint32_t key = numberAt(bit + shift) != 0 ? bit + shift : bit; // a language without this text
+  return {numberAt(key), key};
+}
+
+std::vector<ShownMessage> PmcMessages::list(const runtime::Instance& instance) const {
+  std::vector<ShownMessage> shown;
+  forShown(instance, [&](uint32_t key, uint32_t number) {
+    const std::string_view text = runtime::messageText(instance.program(), key);
+    shown.push_back({.number = number,
+                     .value = isListed() ? key : 0,
+                     .text = std::string(isListed() ? withoutNumber(text) : text)});
+    return true;
+  });
+  return shown;
+}
+
+bool PmcMessages::showsAlarm(const runtime::Instance& instance) const noexcept {
+  return isListed() && !forShown(instance, [](uint32_t, uint32_t number) { return !isAlarm(number); });
+}
+
+size_t PmcMessages::describe(const rung_program& program, const rung_message& message, std::span<char> out) noexcept {
+  size_t size = 0;
+  if (isAlarm(message.number)) put("EX", out, size);
+  put(runtime::messageText(program, static_cast<uint32_t>(message.value)), out, size); // begins with the number
+  return size;
+}
+
+std::string PmcMessages::text(const ShownMessage& message) {
+  const std::string number = std::to_string(message.number), text = " \"" + message.text + "\"";
+  if (isAlarm(message.number)) return "alarm EX" + number + text;
+  return "message " + number + text + (message.number >= kFirstPlain ? ", shown without its number" : "");
+}
+
+} // namespace rung::nc

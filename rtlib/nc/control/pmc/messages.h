@@ -1,0 +1,132 @@
+// Messages of the PMC family: bits of the A area, with texts of the program, as the dialect's MessageRule says. By a
+// text list the number is that of the text, the value of a message is the number of the text in the program's table
+// (8·byte + bit + 1, with the shift of the language), and requests without a text are not shown. Scan thread, as
+// Control.
+#pragma once
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "rtlib/core/bits.h"
+#include "rtlib/nc/control/control.h"
+#include "rtlib/nc/pmc/model.h"
+
+namespace rung::nc {
+
+class PmcMessages {
+public:
+  static constexpr uint32_t kMostBytes = 752; // of the A area; FANUC's largest has 750
+
+  // Adjacent bytes of the A area, and their place in the memory block.
+  struct Piece {
+    uint32_t first = 0, count = 0;
+    uint32_t offset = 0;
+    bool expanded = false; // a byte of the block for each bit
+
+    uint32_t size() const noexcept { return expanded ? 8 * count : count; } // in the block
+  };
+
+  // Where a program has its messages. Any thread, but not in real time.
+  struct Places {
+    Places(const rung_program& program, pmc::MessageRule rule);
+
+    uint32_t area; // RUNG_NONE: the program has no messages
+    uint32_t bytes = 0;
+    std::vector<Piece> pieces;
+    std::vector<uint8_t> written;  // mask of the bits that rungs write, by byte of the pieces
+    std::vector<uint32_t> numbers; // of texts, by the text's number in the program's table - 1; 0: there is none
+    uint32_t display = RUNG_NONE;  // @DISPB
+    uint32_t shift = RUNG_NONE;    // K, if it has the message shift
+
+  private:
+    void readTexts(const rung_program& program);
+  };
+
+  explicit PmcMessages(pmc::MessageRule rule) : rule_(rule) {}
+
+  void powerOn();
+  // Another program has taken over; messages that none of its rungs can end are ended. The places outlive the use.
+  void use(uint8_t* block, const Places& places) noexcept;
+
+  // As in Control.
+  bool shows(const runtime::Instance& instance, std::span<const ShownMessage> these) const noexcept;
+  bool nextChange(const runtime::Instance& instance, rung_message& message) noexcept;
+  std::vector<ShownMessage> list(const runtime::Instance& instance) const;
+  // By a text list only.
+  static size_t describe(const rung_program& program, const rung_message& message, std::span<char> out) noexcept;
+  static std::string text(const ShownMessage& message);
+  // Whether a message is shown that puts the CNC into the alarm state.
+  bool showsAlarm(const runtime::Instance& instance) const noexcept;
+
+private:
+  // FANUC's kinds of messages by number: alarms, operator messages, and from kFirstPlain on those without a number.
+  static constexpr uint32_t kFirstAlarm = 1000, kFirstMessage = 2000, kFirstPlain = 2100;
+  static bool isAlarm(uint32_t number) { return number >= kFirstAlarm && number < kFirstMessage; }
+
+  bool isListed() const { return rule_ == pmc::MessageRule::ByTextList; }
+  // Whether messages are shown at all now (DISPB).
+  bool displays(const runtime::Instance& instance) const noexcept {
+    if (!isListed()) return true;
+    return places_->display != RUNG_NONE && instance.memory().readByte(places_->display, 0) != 0;
+  }
+  uint32_t shift(const runtime::Instance& instance) const noexcept;
+  // The text's number and key for an A bit, from 1; number 0: there is no text. `key` is the number of the text in the
+  // program's table.
+  struct Known {
+    uint32_t number = 0, key = 0;
+  };
+  Known known(uint32_t bit, uint32_t shift) const noexcept;
+
+  // Calls see(number) for each A bit that is 1, from 1, in order, until it returns false; returns whether it never did.
+  template <class See>
+  bool forRequested(const uint8_t* block, See see) const;
+  // Calls see(key, number) for each message that is shown, in the same way.
+  template <class See>
+  bool forShown(const runtime::Instance& instance, See see) const;
+
+  // Whether the bytes of the A area and the display are those of the last call of `see`, so that no message has
+  // changed.
+  bool isAsSeen(const uint8_t* block, bool display) const noexcept;
+  void see(const uint8_t* block, bool display) noexcept;
+
+  pmc::MessageRule rule_;
+  const Places* places_ = nullptr;                     // of the program that runs now
+  std::array<uint8_t, kMostBytes> known_{};            // bits of messages as reported to the host
+  std::array<uint8_t, size_t{8} * kMostBytes> seen_{}; // bytes of the pieces at the last `see`
+  bool hasSeen_ = false;
+  bool seenDisplay_ = false; // the state of the display at the last `see`
+};
+
+// Nearly all bits are 0, so eight bytes of the block are tested at once.
+template <class See>
+bool PmcMessages::forRequested(const uint8_t* block, See see) const {
+  constexpr uint32_t kWord = sizeof(uint64_t);
+  for (const Piece& piece : places_->pieces) {
+    const uint32_t size = piece.size();
+    for (uint32_t at = 0; at < size; at += kWord) {
+      uint64_t bits = 0;
+      std::memcpy(&bits, block + piece.offset + at, std::min(kWord, size - at));
+      if (bits == 0) continue;
+      if (piece.expanded) bits = core::packBits(block + piece.offset + at);
+      for (uint32_t number = 8 * (piece.first + (piece.expanded ? at / 8 : at)) + 1; bits != 0; bits &= bits - 1)
+        if (!see(number + static_cast<uint32_t>(std::countr_zero(bits)))) return false;
+    }
+  }
+  return true;
+}
+
+template <class See>
+bool PmcMessages::forShown(const runtime::Instance& instance, See see) const {
+  if (places_ == nullptr || !displays(instance)) return true;
+  const uint32_t moved = shift(instance);
+  return forRequested(instance.block().data(), [&](uint32_t bit) {
+    const Known found = known(bit, moved);
+    return found.number == 0 || see(found.key, found.number);
+  });
+}
+
+} // namespace rung::nc

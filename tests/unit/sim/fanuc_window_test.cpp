@@ -151,7 +151,7 @@ TEST_F(FanucWindow, TheClockRunsWithTheSlots) {
 TEST_F(FanucWindow, FunctionsThatAreNotThere) {
   EXPECT_EQ(read(999, 4, 0, 0), failed(1));
   EXPECT_EQ(readNow(1028, 4, 0, 1), failed(1)); // of path 2
-  EXPECT_EQ(read(14, 4, 1, 0), failed(1));    // writes
+  EXPECT_EQ(read(14, 4, 1, 0), failed(1));      // writes
   EXPECT_EQ(write({13, 4, 1, 0, 0}), 1);
   EXPECT_EQ(read(33, 0, 300, 6), failed(2)); // known, but not simulated
   EXPECT_EQ(readNow(207, 4, 11, 6), failed(2));

@@ -49,6 +49,7 @@ LAYERS = {
        for folder in ("compile", "control", "rung-run", "rung-hal")},
     "machine/rung-compile": ("machine/compile", "compiler", "frontend", "codegen", "ir", "rtlib"),
     "machine/rungctl": ("machine", "machine/rung-compile/collect.h", "rtlib"),
+    "tools/imported": ("ir/support", "rtlib/text"),
     "tools/report": ("compiler", "frontend", "codegen", "ir", "rtlib"),  # what drives programs is in tools/scenario
 }
 FREE = ("tests", "examples")  # may include everything, but nobody includes them
@@ -88,7 +89,7 @@ NAMESPACES = {
     "machine/host": "host", "machine/io": "io", "machine/control": "control", "machine/compile": "compile", "machine/rung-compile": "rung_compile",
     "machine/command-line": "cli", "machine/rung-run": "rung_run", "machine/rung-hal": "hal", "machine/rungctl": "rungctl",
     "sim": "sim", "sim/plugin": "rung_run",  # what rung-run declares, it defines
-    "tools/rungc": "rungc", "tools/scenario": "scenario", "tools/report": "report", "tools/view": "view", "tools/bind": "bind",
+    "tools/rungc": "rungc", "tools/scenario": "scenario", "tools/report": "report", "tools/view": "view", "tools/bind": "bind", "tools/imported": "imported",
     "tools/bench": "bench",
 }
 NAMESPACE = re.compile(r"^namespace rung(?:::([\w:]+))?(?= *\{)", re.MULTILINE)

@@ -87,6 +87,7 @@ int writeProgram(const std::string& out, const std::string& file);
 void addCheck(CommandLine& app, int& status);
 void addBuild(CommandLine& app, int& status);
 void addConvert(CommandLine& app, int& status);
+void addImport(CommandLine& app, int& status);
 void addFormat(CommandLine& app, int& status);
 void addEmit(CommandLine& app, int& status);
 void addOpt(CommandLine& app, int& status);

@@ -27,6 +27,7 @@ int main(int argc, char** argv) {
   addEmit(app, status);
   addOpt(app, status);
   addConvert(app, status);
+  addImport(app, status);
   addFormat(app, status);
   addView(app, status);
   addXref(app, status);

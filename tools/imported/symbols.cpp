@@ -142,8 +142,9 @@ private:
       return remark(addressAt, fmt::format("{} belongs to PMC {}; left out", quoted(row.address), address->pmc));
     if (row.symbol.empty())
       return remark(addressAt, fmt::format("{} has a comment and no symbol; left out", quoted(row.address)));
-    if (row.symbol.find_first_of(" \t") != std::string::npos)
-      return remark(symbolAt, fmt::format("the symbol '{}' has a blank in it", quoted(row.symbol)), true);
+    if (const size_t bad = row.symbol.find_first_of(" \t,;%\""); bad != std::string::npos)
+      return remark(symbolAt, fmt::format("the symbol '{}' has a '{}' in it", quoted(row.symbol), row.symbol[bad]),
+                    true);
     if (countCodePoints(row.symbol) > kLongestSymbol)
       remark(symbolAt, fmt::format("the symbol {} is longer than {} characters, the most that any control takes",
                                    quoted(row.symbol), kLongestSymbol));
@@ -152,8 +153,15 @@ private:
       remark(symbolAt, fmt::format("the symbol {} is also {}, which takes precedence in a program", quoted(row.symbol),
                                    isNumber ? "a number" : "an address"));
     if (isKnown(line, symbolAt, row, nameOf(*address))) return;
-    for (std::string& comment : row.comments) std::ranges::replace(comment, ',', ';'); // a section has no quotes
+    for (std::string& comment : row.comments) comment = withoutMarks(std::move(comment));
     rows_.push_back(std::move(row));
+  }
+
+  // A section has no quoted fields.
+  static std::string withoutMarks(std::string comment) {
+    std::ranges::replace(comment, ',', ';');
+    std::ranges::replace(comment, '"', '\'');
+    return comment;
   }
 
   // Symbols are compared without case. The same definition may be there twice.

@@ -6,8 +6,8 @@
 // its outputs may change up to `tolerance` frames earlier or later: an output is expected in a frame only if the trace
 // has the same value in all frames so near.
 #include <algorithm>
-#include <map>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -94,12 +94,12 @@ private:
     const auto number = text::wholeIn<int64_t>(fields[0].text);
     if (!number || *number > kMostFrames || *number < -kMostFrames)
       return wrong(fields[0].at, fmt::format("found '{}', expected the number of a frame", quoted(fields[0].text)));
-    if (!trace_.frames.empty() && *number != trace_.frames.back().number + 1)
-      return wrong(fields[0].at, fmt::format("frame {} follows frame {}, expected {}", *number,
-                                             trace_.frames.back().number, trace_.frames.back().number + 1));
+    const int64_t before = std::exchange(last_, *number).value_or(*number - 1);
+    if (*number != before + 1)
+      return wrong(fields[0].at, fmt::format("frame {} follows frame {}, expected {}", *number, before, before + 1));
     if (fields.size() != trace_.signals.size() + 1)
       return wrong(positionOf(line, 0),
-                   fmt::format("found {} values, expected {}", fields.size() - 1, trace_.signals.size()));
+                   fmt::format("values of the frame: found {}, expected {}", fields.size() - 1, trace_.signals.size()));
     Frame frame{.number = *number, .values = {}, .line = line.number};
     for (size_t i = 1; i < fields.size(); ++i) {
       if (fields[i].text != "0" && fields[i].text != "1")
@@ -113,6 +113,7 @@ private:
 
   std::vector<Remark>& remarks_;
   Trace trace_;
+  std::optional<int64_t> last_; // number of the line before
 };
 
 class Writer {

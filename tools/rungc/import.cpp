@@ -70,7 +70,7 @@ std::optional<ControlFile> kindOf(const std::string& bytes, const std::string& t
     status = wrong(fmt::format("'{}' is {}", options.file, *foreign));
   else if (text.find("%@") != std::string::npos)
     status = wrong(
-        fmt::format("'{}' has sections, so it is a file of a program: name it in `files` of rung.toml", options.file));
+        fmt::format("'{}' is a file of a program, as it has sections: name it in `files` of rung.toml", options.file));
   else
     status = wrong(fmt::format("'{}' is not recognised; --as says what it is, and docs/importing.md how it must look",
                                options.file));

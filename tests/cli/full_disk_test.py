@@ -34,6 +34,7 @@ COMMANDS = {
     "emit": ["ir", "a.pmc"],
     "opt": ["a.pmc"],
     "convert": ["a.pmc", "--to", "ladder"],
+    "import": ["s.csv"],
     "format": ["a.pmc", "--stdout"],
     "view": ["a.pmc", "-o", "a.html"],
     "xref": ["a.pmc"],
@@ -59,7 +60,7 @@ class FullDisk(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.home = Path(folder.name)
         self.made = 0
-        for name, text in (("a.pmc", PROGRAM), ("b.pmc", PROGRAM.replace("LD ", "LDI")), ("a.scn", SCENARIO), ("long.pmc", LONG),
+        for name, text in (("a.pmc", PROGRAM), ("b.pmc", PROGRAM.replace("LD ", "LDI")), ("a.scn", SCENARIO), ("long.pmc", LONG), ("s.csv", "START,X10.0\n"),
                            ("long.scn", SCENARIO.replace("a.pmc", "long.pmc")),
                            ("host.h", "struct io { _Bool lamp; };\n")):
             (self.home / name).write_text(text)

@@ -52,11 +52,23 @@ Result<std::vector<std::string>> makeProject(std::string_view dialect, const std
   return written;
 }
 
+// "gsk, nct and technol", with the last word.
+std::string dialectNames(std::string_view last) {
+  std::string names;
+  const std::span<const frontend::Dialect* const> all = frontend::allDialects();
+  for (size_t i = 0; i < all.size(); ++i) {
+    if (i > 0) names += i + 1 == all.size() ? fmt::format(" {} ", last) : ", ";
+    names += all[i]->name;
+  }
+  return names;
+}
+
 int makeNew(const std::string& dialect, const std::string& folder) {
   if (frontend::findDialect(dialect) == nullptr)
     return usageError(
-        fmt::format("unknown dialect '{}'{}; the dialects are gsk, nct and technol", dialect,
-                    text::didYouMean(text::mostSimilar(dialect, frontend::allDialects(), &frontend::Dialect::name))));
+        fmt::format("unknown dialect '{}'{}; the dialects are {}", dialect,
+                    text::didYouMean(text::mostSimilar(dialect, frontend::allDialects(), &frontend::Dialect::name)),
+                    dialectNames("and")));
   const Result<std::vector<std::string>> written = makeProject(dialect, folder);
   if (!written.ok()) return environmentError(written.error());
   for (const std::string& file : written.value()) fmt::print("{}\n", file);
@@ -73,7 +85,7 @@ void addNew(CommandLine& app, int& status) {
   };
   Command command = app.add("new", "Create a small complete project: program, scenario, project file");
   auto options = std::make_shared<Options>();
-  command.option("DIALECT", options->dialect, "nct, gsk or technol").required();
+  command.option("DIALECT", options->dialect, dialectNames("or")).required();
   command.option("DIR", options->folder, "The folder to create; its name is the name of the project").required();
   command.onRun([options, &status] { status = makeNew(options->dialect, options->folder); });
 }

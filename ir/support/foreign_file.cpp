@@ -57,7 +57,7 @@ std::string_view wordOf(std::string_view line) { return line.substr(0, line.find
 bool isParameters(std::span<const std::string_view> lines) {
   const auto first = std::ranges::find_if(lines, [](std::string_view line) { return line != "%"; });
   if (first == lines.end()) return false;
-  return text::startsWithIgnoringCase(*first, "(PMC=") || (isNumbered(*first, 6, "P") && (*first)[1] == '6');
+  return text::startsWithIgnoringCase(*first, "(PMC") || (isNumbered(*first, 6, "P") && (*first)[1] == '6');
 }
 
 bool isTrace(std::span<const std::string_view> lines) {

@@ -30,6 +30,7 @@ TEST(PmcAddress, Forms) {
 
 TEST(ControlFile, Kinds) {
   EXPECT_EQ(controlFileOf("%\n(PMC=0I-F,MSID=1)\nN600000 P6\n"), ControlFile::Parameters);
+  EXPECT_EQ(controlFileOf("%\n(PMC = 0I-D, MSID = 1)\n"), ControlFile::Parameters);
   EXPECT_EQ(controlFileOf("\n%\r\nN620000P00000001\r\n"), ControlFile::Parameters);
   EXPECT_EQ(controlFileOf("START,X0010.0,START BUTTON\n"), ControlFile::Symbols);
   EXPECT_EQ(controlFileOf("symbol,address,comment\nMotor,P0005,\n"), ControlFile::Symbols);

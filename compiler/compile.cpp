@@ -14,6 +14,7 @@
 #include "ir/support/diag/ladder.h"
 #include "ir/support/diag/source.h"
 #include "ir/support/encoding.h"
+#include "ir/support/foreign_file.h"
 #include "ir/support/meant.h"
 #include "ir/text/text.h"
 #include "ir/transforms/passes.h"
@@ -64,6 +65,13 @@ void reportNoDialect(const SourceManager& sources, FileId file, Diagnostics& dia
                           fmt::join(programs, ", ")));
 }
 
+// What the text is if it is binary or a file of a control that is not a program, so that no name or first statement
+// would make it one.
+std::optional<std::string> foreignText(std::string_view text) {
+  const bool isForeign = text.find('\0') != std::string_view::npos || controlFileOf(text);
+  return isForeign ? foreignFile(text) : std::nullopt;
+}
+
 bool checkEncodingKey(const frontend::CompileOptions& options, Diagnostics& diagnostics) {
   const std::string key(nc::kEncodingKey.key);
   const auto encoding = options.config.find(key);
@@ -89,7 +97,9 @@ const frontend::Dialect* chooseDialect(const SourceManager& sources, std::span<c
   }
   const frontend::Dialect* found = frontend::dialectOf(sources, files[0]);
   if (found != nullptr) return found;
-  if (const std::string_view unknown = frontend::ladder::peekDialect(sources, files[0]); !unknown.empty())
+  if (const std::optional<std::string> foreign = foreignText(sources.text(files[0])))
+    diagnostics.report(diag::ForeignFile, SourceRange{}) << sources.name(files[0]) << *foreign;
+  else if (const std::string_view unknown = frontend::ladder::peekDialect(sources, files[0]); !unknown.empty())
     reportUnknownDialect(sources, files[0], unknown, diagnostics);
   else if (frontend::checkEncoding(sources, files[0], diagnostics))
     reportNoDialect(sources, files[0], diagnostics);

@@ -87,7 +87,7 @@ std::optional<ControlFile> controlFileOf(std::span<const std::string_view> lines
 
 // In the order of ControlFile.
 constexpr std::array<std::string_view, 4> kControlFiles = {
-    "the PMC parameters of a control: `rungc import` makes initial values of them",
+    "a list of PMC parameters: `rungc import` makes initial values of them",
     "a table of symbols and comments: `rungc import` makes a file of the program of it",
     "a signal trace: `rungc import` makes a scenario of it",
     "a signal operation file of the PMC simulator: `rungc import` makes a scenario of it"};

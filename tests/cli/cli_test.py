@@ -966,6 +966,15 @@ class HostileInput(Cli):
         self.assertIn(b"[missing-dialect]", done.stderr)
         self.assertIn(b"this is a line of an instruction list", done.stderr)
 
+    def test_a_file_of_a_control_that_is_no_program_is_named(self):
+        for name, contents, said in (("mill.LAD", b"\1\0\2\0LEVEL1.#LR\0\0", b"mill.LAD' is a LADDER-III project (.LAD), which is binary"),
+                                     ("PMC1.000", b"PMC\0\0\3\xff\x10", b"PMC1.000' is a binary file, such as a memory card file"),
+                                     ("PMC1_PRM.TXT", b"%\nN600000 P6\n%\n", b"PMC1_PRM.TXT' is a list of PMC parameters: `rungc import`")):
+            done = rungc("check", self.file(name, contents))
+            self.assertEqual(done.returncode, WRONG)
+            self.assertIn(said, done.stderr)
+            self.assertIn(b"[foreign-file]", done.stderr)
+
     def test_limits_of_sources(self):
         chain = "".join(f"symbol S{i} S{i + 1},#1\n" for i in range(5000))
         done = self.survives(self.file("chain.lad", "dialect nct\n" + chain + "symbol S5000 5100\nmodule MAIN\n"))

@@ -181,8 +181,8 @@ private:
   void writeRun(const Run& run) {
     const text::Position at = run.parameters.front().at;
     if (run.range == nullptr || run.range->form == Form::NoValue)
-      return remark(
-          at, fmt::format("{}: {}; left out", numbersOf(run), run.range == nullptr ? "not known" : run.range->what));
+      return remark(at, fmt::format("{} (up to line {}): {}; left out", numbersOf(run), run.parameters.back().at.line,
+                                    run.range == nullptr ? "not known" : run.range->what));
     if (!run.range->isCertain)
       remark(at, fmt::format("{}: {}; that is likely, not certain: compare with the control's screen", numbersOf(run),
                              run.range->what));
@@ -200,6 +200,12 @@ private:
     }
   }
 
+  // The control writes decimal numbers only.
+  static text::WrittenNumber numberIn(std::string_view value) {
+    const bool isDecimal = value.find_first_not_of("-0123456789.") == std::string_view::npos;
+    return isDecimal ? text::writtenNumber(value) : text::WrittenNumber{};
+  }
+
   static uint32_t addressOf(const Range& range, const Parameter& parameter) {
     return parameter.number - range.first + range.place;
   }
@@ -210,16 +216,16 @@ private:
   }
 
   void writeWord(const Range& range, const Parameter& parameter) {
-    const auto value = text::wholeIn<uint32_t>(parameter.value);
+    const text::WrittenNumber value = numberIn(parameter.value);
     if (parameter.number % 2 != 0)
       return remark(parameter.at,
                     fmt::format("N{} is odd; {} are words at even addresses", parameter.number,
                                 range.area == "T" ? "timers" : "counters"),
                     true);
-    if (!value || *value > range.most)
+    if (value.form != text::NumberForm::Whole || value.negative || value.magnitude > range.most)
       return remark(parameter.valueAt,
                     fmt::format("the value is '{}', expected 0 to {}", quoted(parameter.value), range.most), true);
-    if (*value != 0) set(range, parameter, ":2", std::to_string(*value));
+    if (value.magnitude != 0) set(range, parameter, ":2", std::to_string(value.magnitude));
   }
 
   void writeBits(const Range& range, const Parameter& parameter) {
@@ -231,7 +237,7 @@ private:
   }
 
   void writeData(const Range& range, const Parameter& parameter, uint32_t width) {
-    const text::WrittenNumber value = text::writtenNumber(parameter.value);
+    const text::WrittenNumber value = numberIn(parameter.value);
     if (value.form == text::NumberForm::Real && value.real == 0) return;
     if (value.form == text::NumberForm::Real)
       return remark(parameter.valueAt,

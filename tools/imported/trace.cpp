@@ -33,7 +33,6 @@ struct Signal {
 struct Frame {
   int64_t number = 0;
   std::vector<bool> values; // of the signals
-  uint32_t line = 0;
 };
 
 struct Trace {
@@ -100,7 +99,7 @@ private:
     if (fields.size() != trace_.signals.size() + 1)
       return wrong(positionOf(line, 0),
                    fmt::format("values of the frame: found {}, expected {}", fields.size() - 1, trace_.signals.size()));
-    Frame frame{.number = *number, .values = {}, .line = line.number};
+    Frame frame{.number = *number, .values = {}};
     for (size_t i = 1; i < fields.size(); ++i) {
       if (fields[i].text != "0" && fields[i].text != "1")
         return wrong(fields[i].at, fmt::format("found '{}', expected 0 or 1", quoted(fields[i].text)));
@@ -124,7 +123,6 @@ public:
   std::string write(const Source& source) {
     writeFirst();
     for (size_t i = 1; i < trace_.frames.size(); ++i) writeFrame(i);
-    // The program has not seen what the last frame sets.
     remarkSampling();
     for (size_t i = 0; i < trace_.signals.size(); ++i) remarkSignal(i);
     return headOf(source) + text_;

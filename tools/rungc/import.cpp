@@ -140,7 +140,8 @@ int run(const ImportOptions& options) {
   printRemarks(*made, source);
   if (!made->isUsable()) return kWrong;
   status = writeOutput(made->text, options.out);
-  if (status == kOk && !options.out.empty() && options.out != "-") fmt::print("wrote {}\n", options.out);
+  if (status == kOk && !options.out.empty() && options.out != "-")
+    fmt::print("wrote {}{}\n", options.out, *kind == ControlFile::Symbols ? "; name it in `files` of rung.toml" : "");
   return status;
 }
 

@@ -73,7 +73,7 @@ TEST(ForeignFile, TextsOfOtherControls) {
       foreign("<?xml version='1.0'?>\n<project xmlns='http://www.plcopen.org/xml/tc6'/>").starts_with("PLCopen"));
   EXPECT_TRUE(foreign("<?xml version='1.0'?>\n<RSLogix5000Content/>").starts_with("a project of a Rockwell"));
   EXPECT_TRUE(foreign("START,X10.0,BUTTON\n").starts_with("a table of symbols"));
-  EXPECT_TRUE(foreign("%\nN600000 P6\n").starts_with("the PMC parameters"));
+  EXPECT_TRUE(foreign("%\nN600000 P6\n").starts_with("a list of PMC parameters"));
 }
 
 } // namespace

@@ -79,6 +79,6 @@ std::string nameOf(const PmcAddress& address) {
   return fmt::format("{}{}{}", address.area, address.number, bit);
 }
 
-std::string quoted(std::string_view text) { return text::withoutControls(text::trimmed(text)); }
+std::string asShown(std::string_view text) { return text::withoutControls(text::trimmed(text)); }
 
 } // namespace rung::imported

@@ -34,6 +34,6 @@ std::vector<Field> fieldsOf(const Line& line);
 std::string nameOf(const PmcAddress& address);
 
 // A text of the file as a part of a comment: without control characters.
-std::string quoted(std::string_view text);
+std::string asShown(std::string_view text);
 
 } // namespace rung::imported

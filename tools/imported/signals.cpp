@@ -35,7 +35,7 @@ const Type* typeOf(std::string_view word) {
 // A name of a scenario: no blank, and nothing that would end the word.
 bool isName(std::string_view text) {
   return !text.empty() && text[0] != '#' && text.find_first_of(" \t\"#") == std::string_view::npos &&
-         quoted(text) == text;
+         asShown(text) == text;
 }
 
 class Reader {
@@ -72,7 +72,7 @@ private:
 
   bool readFirst(const std::vector<Field>& fields) {
     hasBegun_ = text::equalsIgnoringCase(fields[0].text, "PMC SIGNAL DATA");
-    if (!hasBegun_) wrong(fields[0].at, fmt::format("found '{}', expected PMC SIGNAL DATA", quoted(fields[0].text)));
+    if (!hasBegun_) wrong(fields[0].at, fmt::format("found '{}', expected PMC SIGNAL DATA", asShown(fields[0].text)));
     return hasBegun_;
   }
 
@@ -80,14 +80,14 @@ private:
     const std::string command = text::upper(fields[0].text);
     if (command == "REMARK" || command == "R") return readRemark(line, fields);
     if (command == "SET" || command == "S") return readSet(fields);
-    wrong(fields[0].at, fmt::format("found '{}', expected REMARK or SET", quoted(fields[0].text)));
+    wrong(fields[0].at, fmt::format("found '{}', expected REMARK or SET", asShown(fields[0].text)));
   }
 
   void readRemark(const Line& line, const std::vector<Field>& fields) {
     if (hasRemark_) return remarks_.push_back({fields[0].at, "only the first REMARK of a file counts; left out"});
     hasRemark_ = true;
     const size_t comma = line.text.find(',');
-    if (comma != std::string_view::npos) remark_ = "# " + quoted(line.text.substr(comma + 1)) + '\n';
+    if (comma != std::string_view::npos) remark_ = "# " + asShown(line.text.substr(comma + 1)) + '\n';
   }
 
   void readSet(const std::vector<Field>& fields) {
@@ -95,7 +95,7 @@ private:
     if (!wait || *wait < 0 || *wait > kMostWaitMs)
       return wrong(fields.size() < 2 ? fields[0].at : fields[1].at,
                    fmt::format("found '{}', expected the time to wait in ms, 0 to {}",
-                               fields.size() < 2 ? "nothing" : quoted(fields[1].text), kMostWaitMs));
+                               fields.size() < 2 ? "nothing" : asShown(fields[1].text), kMostWaitMs));
     if (fields.size() % 3 != 2) return wrong(fields.back().at, "expected groups of address, value and type");
     text_ += "\n" + slotsText(slotsOf(*wait * 1000));
     for (size_t i = 2; i < fields.size(); i += 3) readGroup(std::span(fields).subspan(i, 3));
@@ -108,14 +108,14 @@ private:
     const text::WrittenNumber value = text::writtenNumber(group[1].text);
     if (!isName(group[0].text) || (address && address->pmc != 1))
       return wrong(group[0].at,
-                   fmt::format("found '{}', expected an address of PMC 1 or a symbol", quoted(group[0].text)));
+                   fmt::format("found '{}', expected an address of PMC 1 or a symbol", asShown(group[0].text)));
     if (type == nullptr || (address && address->bit.has_value() != (type->bits == 1)))
-      return wrong(group[2].at, fmt::format("found '{}', expected {}", quoted(group[2].text),
+      return wrong(group[2].at, fmt::format("found '{}', expected {}", asShown(group[2].text),
                                             !address       ? "BIT, BYTE, WORD, DWORD or LONG"
                                             : address->bit ? "BIT for a bit"
                                                            : "BYTE, WORD, DWORD or LONG for a byte address"));
     if (!text::fitsBits(value, type->bits))
-      return wrong(group[1].at, fmt::format("found '{}', expected a whole number of {} bit{}", quoted(group[1].text),
+      return wrong(group[1].at, fmt::format("found '{}', expected a whole number of {} bit{}", asShown(group[1].text),
                                             type->bits, type->bits == 1 ? "" : "s"));
     const std::string name = address ? nameOf(*address) : group[0].text;
     text_ +=
@@ -136,7 +136,7 @@ Imported scenarioOfSignals(const Source& source) {
   made.text =
       fmt::format("# Made by rungc import from {}: a signal operation file of the PMC simulator. It expects nothing\n"
                   "# yet: say what the program is to do, by `expect`.\n",
-                  quoted(source.name));
+                  asShown(source.name));
   made.text += Reader(made.remarks).read(source.text);
   return made;
 }

@@ -148,8 +148,8 @@ int run(const ImportOptions& options) {
 } // namespace
 
 void addImport(CommandLine& app, int& status) {
-  Command command = app.add("import", "Turn a file of a FANUC control into a file of a project: PMC parameters into "
-                                      "initial values, symbols into a section, traces into scenarios");
+  Command command =
+      app.add("import", "Turn a file of a FANUC control (parameters, symbols, a trace) into a file of a project");
   auto options = std::make_shared<ImportOptions>();
   command.option("FILE", options->file, "The file of the control, of LADDER-III or of the PMC simulator").required();
   command.option("--as", options->kind, "What the file is; default: recognised by its contents")

@@ -68,8 +68,7 @@ void reportNoDialect(const SourceManager& sources, FileId file, Diagnostics& dia
 // What the text is if it is binary or a file of a control that is not a program, so that no name or first statement
 // would make it one.
 std::optional<std::string> foreignText(std::string_view text) {
-  const bool isForeign = text.find('\0') != std::string_view::npos || controlFileOf(text);
-  return isForeign ? foreignFile(text) : std::nullopt;
+  return isBinary(text) || controlFileOf(text) ? foreignFile(text) : std::nullopt;
 }
 
 bool checkEncodingKey(const frontend::CompileOptions& options, Diagnostics& diagnostics) {

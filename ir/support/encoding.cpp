@@ -6,8 +6,6 @@
 #include <iconv.h>
 
 #include "ir/support/utf8.h"
-#include "rtlib/text/blanks.h"
-#include "rtlib/text/controls.h"
 #include "rtlib/text/letters.h"
 
 namespace rung {
@@ -57,17 +55,6 @@ bool isNameCharacter(char c) {
   return text::isLetter(c) || text::isDigit(c) || c == '-' || c == '_' || c == '.' || c == ':';
 }
 
-// Whether the first characters are those of a text, each with its low byte first.
-bool isUtf16(std::string_view bytes) {
-  constexpr size_t kLooked = 64; // bytes
-  if (bytes.starts_with("\xFF\xFE")) return true;
-  if (bytes.size() < 2 || bytes[1] != '\0') return false;
-  for (size_t at = 0; at + 1 < std::min(bytes.size(), kLooked); at += 2)
-    if (bytes[at + 1] == '\0' && text::isControl(bytes[at]) && !text::trimmed(bytes.substr(at, 1)).empty())
-      return false;
-  return true;
-}
-
 } // namespace
 
 bool knowsEncoding(const std::string& name) {
@@ -87,8 +74,14 @@ std::optional<std::string> encoded(std::string_view text, const std::string& enc
   return out;
 }
 
+std::string shownEncoding(std::string_view bytes) {
+  if (bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF")) return "UTF-16";
+  const bool isLow = bytes.size() >= 4 && bytes[0] != 0 && bytes[1] == 0 && bytes[2] != 0 && bytes[3] == 0;
+  return isLow ? "UTF-16LE" : "";
+}
+
 std::string guessedEncoding(std::string_view bytes) {
-  if (isUtf16(bytes)) return "UTF-16LE";
+  if (std::string shown = shownEncoding(bytes); !shown.empty()) return shown;
   return findInvalidUtf8(bytes) == std::string_view::npos ? kUtf8 : "ISO-8859-1";
 }
 

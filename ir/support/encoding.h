@@ -22,9 +22,12 @@ Decoded decoded(std::string_view bytes, const std::string& encoding);
 /// The bytes of a text in UTF-8; nothing if the encoding lacks one of its characters. `encoding` must be known.
 std::optional<std::string> encoded(std::string_view text, const std::string& encoding);
 
-/// The encoding of a text that does not declare it, as LADDER-III and FANUC's controls write it: UTF-16LE, with its
-/// mark or recognised by the zeros of its first characters, UTF-8, or ISO-8859-1 (Latin-1) for all other bytes. For
-/// decoded().
+/// The encoding of a text that shows it by itself: UTF-16, with a byte order mark or, low byte first, without;
+/// otherwise "".
+std::string shownEncoding(std::string_view bytes);
+
+/// The encoding of a text that does not declare it, as LADDER-III and FANUC's controls write it: the one that it shows,
+/// UTF-8, or ISO-8859-1 (Latin-1) for all other bytes. For decoded().
 std::string guessedEncoding(std::string_view bytes);
 
 /// The encoding that a text declares: `; encoding: NAME` alone on its first or second line.

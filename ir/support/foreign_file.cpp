@@ -11,6 +11,7 @@
 #include "ir/support/utf8.h"
 #include "rtlib/text/blanks.h"
 #include "rtlib/text/controls.h"
+#include "rtlib/text/end_of_file.h"
 #include "rtlib/text/letters.h"
 
 namespace rung {
@@ -172,14 +173,21 @@ constexpr std::string_view kBinary =
     "LADDER-III "
     "(File > Import), decompile it (Tool > Decompile), and write a mnemonic file (Tool > Mnemonic Convert)";
 
-// A control character that no text has: FANUC's texts have tabs, line ends and the end-of-file mark of DOS.
-bool isBinary(char c) { return text::isControl(c) && text::trimmed({&c, 1}).size() == 1 && c != '\x1A' && c != '\f'; }
+// FANUC's texts have tabs, line ends, form feeds and the end-of-file mark of DOS.
+bool isOfBinary(char c) { return text::isControl(c) && text::trimmed({&c, 1}).size() == 1 && c != '\f'; }
+
+// In UTF-8 without byte order mark.
+std::string firstText(std::string_view bytes) {
+  std::string text = decoded(bytes, guessedEncoding(bytes)).text;
+  if (text.starts_with(kByteOrderMark)) text.erase(0, kByteOrderMark.size());
+  return std::string(text::upToEndOfFile(text));
+}
 
 // "" for a text.
 std::string_view foreignBinary(std::string_view bytes) {
   for (const Magic& magic : kMagic)
     if (bytes.starts_with(magic.bytes)) return magic.what;
-  if (guessedEncoding(bytes) == "UTF-16LE" || !std::ranges::any_of(bytes, isBinary)) return {};
+  if (!isBinary(bytes)) return {};
   constexpr std::string_view kWide("#\0L\0R", 5); // its members are LEVEL1.#LR and others
   const bool isProject = bytes.find("#LR") != std::string_view::npos || bytes.find(kWide) != std::string_view::npos;
   return isProject ? kProject : kBinary;
@@ -191,11 +199,12 @@ std::optional<ControlFile> controlFileOf(std::string_view text) {
   return controlFileOf(linesOf(text.substr(0, kLooked)));
 }
 
+bool isBinary(std::string_view bytes) { return std::ranges::any_of(firstText(bytes.substr(0, kLooked)), isOfBinary); }
+
 std::optional<std::string> foreignFile(std::string_view bytes) {
   const std::string_view looked = bytes.substr(0, kLooked);
   if (const std::string_view what = foreignBinary(looked); !what.empty()) return std::string(what);
-  std::string text = decoded(looked, guessedEncoding(looked)).text;
-  if (text.starts_with(kByteOrderMark)) text.erase(0, kByteOrderMark.size());
+  const std::string text = firstText(looked);
   const std::string_view what = foreignText(text);
   return what.empty() ? std::nullopt : std::optional<std::string>(what);
 }

@@ -19,6 +19,9 @@ enum class ControlFile : uint8_t {
 /// `text` is UTF-8 without byte order mark. Nothing for any other file; a file with sections (`%@3`) is a program.
 std::optional<ControlFile> controlFileOf(std::string_view text);
 
+/// Whether the bytes have a control character that no text has.
+bool isBinary(std::string_view bytes);
+
 /// What the bytes of a file are if they are not a program of a FANUC PMC, and how to get one: a text that continues
 /// "this is …". Nothing for what may be a program.
 std::optional<std::string> foreignFile(std::string_view bytes);

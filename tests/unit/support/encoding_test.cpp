@@ -52,8 +52,8 @@ TEST(Encoding, Names) {
 TEST(Encoding, OfATextThatDoesNotDeclareIt) {
   const auto wide = [](std::string_view text) { return encoded(text, "UTF-16LE").value(); };
   EXPECT_EQ(guessedEncoding(wide("%@3\r\n")), "UTF-16LE");
-  EXPECT_EQ(guessedEncoding("\xFF\xFE" + wide("é")), "UTF-16LE");
-  EXPECT_EQ(guessedEncoding(std::string_view("A\0\x01\0", 4)), "UTF-8"); // a control character: binary
+  EXPECT_EQ(guessedEncoding("\xFF\xFE" + wide("é")), "UTF-16");
+  EXPECT_EQ(guessedEncoding(std::string_view("A\0\0B", 4)), "UTF-8");
   EXPECT_EQ(guessedEncoding(""), "UTF-8");
   EXPECT_EQ(guessedEncoding("T\xC3\xBCr"), "UTF-8");
   EXPECT_EQ(guessedEncoding("T\xFCr"), "ISO-8859-1");

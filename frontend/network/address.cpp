@@ -38,6 +38,15 @@ std::string textOf(const Language& language, const Address& address) {
                        : fmt::format("{}{}", letter, address.byte);
 }
 
+std::string bytesText(const AreaInfo& info) {
+  if (info.bytes == 0) return fmt::format("the areas of this control, which has no {}", info.letter);
+  if (info.parts.empty()) return fmt::format("{0}0 to {0}{1}", info.letter, info.bytes - 1);
+  std::string text;
+  for (const ByteRange& part : info.parts)
+    text += fmt::format("{0}{1}{2} to {1}{3}", text.empty() ? "" : ", ", info.letter, part.first, part.last);
+  return text;
+}
+
 std::optional<uint64_t> parseDigits(std::string_view text) {
   if (text.empty()) return std::nullopt;
   uint64_t value = 0;

@@ -31,6 +31,9 @@ struct AddressText {
 };
 std::optional<AddressText> splitAddress(const Language& language, std::string_view text);
 
+// The bytes of an area: "X0 to X127, X200 to X327".
+std::string bytesText(const AreaInfo& area);
+
 // The address of a signal of the language.
 Address addressOf(const Language& language, const nc::Signal& signal);
 

@@ -94,13 +94,18 @@ void ListFormatter::statement(std::span<const Word> words, std::string_view comm
 
 } // namespace
 
-std::optional<std::string> format(const Language& language, SourceManager& sources, FileId file,
-                                  Diagnostics& diagnostics) {
-  if (isLadder(language, sources, file)) return ladder::format(sources, file, language.findBox, diagnostics);
+std::optional<std::string> formatList(const Language& language, SourceManager& sources, FileId file,
+                                      Diagnostics& diagnostics) {
   const size_t before = diagnostics.errorCount();
   if (!checkEncoding(sources, file, diagnostics)) return std::nullopt;
   std::string text = ListFormatter(language, sources, file, diagnostics).run();
   return diagnostics.errorCount() == before ? std::optional(std::move(text)) : std::nullopt;
+}
+
+std::optional<std::string> format(const Language& language, SourceManager& sources, FileId file,
+                                  Diagnostics& diagnostics) {
+  if (isLadder(language, sources, file)) return ladder::format(sources, file, language.findBox, diagnostics);
+  return language.list.format(language, sources, file, diagnostics);
 }
 
 } // namespace rung::frontend::network

@@ -9,6 +9,9 @@
 
 namespace rung::frontend::network {
 
+// A command list, one statement a line.
+std::optional<std::string> formatList(const Language& language, SourceManager& sources, FileId file,
+                                      Diagnostics& diagnostics);
 // A formatted file, ladder text or a command list; nothing if it cannot be read, which is reported.
 std::optional<std::string> format(const Language& language, SourceManager& sources, FileId file,
                                   Diagnostics& diagnostics);

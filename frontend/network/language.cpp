@@ -30,8 +30,12 @@ const Row* Language::findFunction(uint64_t number) const {
   return findRow(rows, [&](const Row& row) { return static_cast<uint64_t>(row.info.number) == number; });
 }
 
+const Row* Language::findRowOf(Control control) const {
+  return findRow(rows, [&](const Row& one) { return one.control == control; });
+}
+
 const Row& Language::rowOf(Control control) const {
-  const Row* row = findRow(rows, [&](const Row& one) { return one.control == control; });
+  const Row* row = findRowOf(control);
   RUNG_CHECK(row != nullptr, "a language is asked for what it has");
   return *row;
 }

@@ -11,6 +11,7 @@
 #include "frontend/ladder/text/ladder_file.h"
 #include "frontend/sema/foreign_word.h"
 #include "frontend/table/instruction.h"
+#include "ir/support/diag/operand.h"
 #include "ir/support/diagnostics.h"
 #include "rtlib/nc/signal.h"
 
@@ -20,9 +21,28 @@ namespace rung::frontend::network {
 // lower/lowered_row.h adds the lowering.
 
 // Instructions that shape the program; everything else is Plain.
-enum class Control : uint8_t { Plain, LevelEnd, Sp, Spe, Jmp, Jmpe, Jmpb, Jmpc, Lbl, Call, CallU, Com, Come };
+enum class Control : uint8_t {
+  Plain,
+  LevelEnd,
+  Sp,
+  Spe,
+  Jmp,
+  Jmpe,
+  Jmpb,
+  Jmpc,
+  Lbl,
+  Call,
+  CallU,
+  Com,
+  Come,
+  ProgramEnd, // after the last subprogram
+};
 
 constexpr bool isEnd(Control control) { return control == Control::LevelEnd || control == Control::Spe; }
+
+struct Context;
+struct Language;
+class UnitAssembler;
 
 struct Row {
   frontend::InstructionInfo info;
@@ -31,6 +51,8 @@ struct Row {
   enum class Numbers : uint8_t { Free, Timer, Counter, Edge } numbers = Numbers::Free;
   bool ignoresCondition = false; // one value before it is accepted, and has no effect
   bool hasTable = false;
+  int64_t mostRow = -1;     // the highest number of such a row, the lowest is 0; -1: what fits the format
+  uint8_t capacityAt = 1;   // of a row with a table: the parameter that is the number of its rows, 0 for 100
   uint32_t recordBytes = 0; // for an operand of kind Record
   bool built = true;        // otherwise it is known, and refused by name
 };
@@ -38,11 +60,11 @@ struct Row {
 // The statements of a list (P12). Declarations are allowed in lists as in ladder text, for conversions.
 // clang-format off
 enum class Command : uint8_t {
-  Load, LoadNot, And, AndNot, Or, OrNot, OrBlock, AndBlock, Out, OutNot, Set, Reset, Function, Parameter, Table,
+  Load, LoadNot, And, AndNot, Or, OrNot, LoadFalling, OrBlock, AndBlock, Out, OutNot, Set, Reset, Function, Parameter, Table,
   Dialect, Symbol, Const
 };
 // clang-format on
-inline constexpr size_t kCommandCount = 18;
+inline constexpr size_t kCommandCount = 19;
 constexpr bool isBlock(Command command) { return command == Command::OrBlock || command == Command::AndBlock; }
 constexpr bool isLogic(Command command) { return command <= Command::AndBlock; }
 constexpr bool isContact(Command command) { return isLogic(command) && !isBlock(command); }
@@ -63,19 +85,34 @@ struct Presets {
   uint32_t every = 1;
 };
 
+// Bytes `first` to `last` of an area.
+struct ByteRange {
+  uint32_t first = 0;
+  uint32_t last = 0;
+};
+
 struct AreaInfo {
   char letter;
-  uint32_t bytes;
+  uint32_t bytes; // 0: the control does not have the area
   AreaUse use = AreaUse::Memory;
   bool retained = false; // through power-off
   std::string_view doc;
   bool shown = false; // memory whose bits the control displays or passes on
   Presets presets{};
-  uint32_t system = UINT32_MAX; // bytes from this one on belong to the control
-  std::string_view instead{};   // what to write instead, for a letter that other languages use for bits
+  uint32_t readOnly = UINT32_MAX;     // bytes from this one on are written by the control alone
+  uint32_t system = UINT32_MAX;       // bytes from this one on belong to the control
+  std::string_view instead{};         // what to write instead, for a letter that other languages use for bits
+  std::span<const ByteRange> parts{}; // the bytes that exist, ascending; empty: all
 
   // Whether what a coil writes is visible outside of contacts and functions.
   constexpr bool seenOutside() const { return use == AreaUse::Output || shown; }
+  // The number of bytes from `byte` to the end of its part; 0 if it does not exist.
+  constexpr uint32_t room(uint64_t byte) const {
+    if (parts.empty()) return byte < bytes ? bytes - static_cast<uint32_t>(byte) : 0;
+    for (const ByteRange& part : parts)
+      if (byte >= part.first && byte <= part.last) return part.last + 1 - static_cast<uint32_t>(byte);
+    return 0;
+  }
 };
 
 // When a level runs (P3).
@@ -92,15 +129,27 @@ struct Level {
   Turn turn = Turn::Parts;
   Diag endMissing{}; // reported if `end` is missing
   Diag endTwice{};
+  bool optional = false; // a list need not have it
 
   // Whether it uses the inputs as they were at its beginning.
   constexpr bool latchesInputs() const { return turn != Turn::EverySlot; }
 };
 
+// The reader and the formatter of a language's lists. Declarations apply to the whole program and are read from all
+// files first.
+struct ListForm {
+  void (*readDeclarations)(Context& context, FileId file);
+  void (*read)(Context& context, FileId file, UnitAssembler& units);
+  // A formatted list; nothing after errors, which are reported.
+  std::optional<std::string> (*format)(const Language& language, SourceManager& sources, FileId file,
+                                       Diagnostics& diagnostics);
+};
+
 struct Language {
-  std::string_view name;                                // of the dialect
-  std::string_view listExtension;                       // of a file with a command list
-  std::array<std::string_view, kCommandCount> commands; // names of the commands, by Command
+  std::string_view name;          // of the dialect
+  std::string_view listExtension; // of a file with a command list
+  const ListForm& list;
+  std::array<std::string_view, kCommandCount> commands; // names of the commands, by Command; "" for one it lacks
   std::span<const Row* const> rows;
   std::span<const AreaInfo> areas;
   const nc::SignalTable& (*signals)(); // names that need no declaration
@@ -112,6 +161,13 @@ struct Language {
   uint32_t maxCallDepth = 0;
   ladder::FindBox findBox = nullptr;
   std::span<const frontend::ForeignWord> foreign; // commands and functions of other languages
+  // The highest number of a timer, a counter, an edge, a label or a subprogram of this row; null: that of the row.
+  int64_t (*mostNumber)(const Language& language, const Row& row) = nullptr;
+  std::string_view nameMarks{}; // characters of names beside letters, digits and _; if any, a name may begin with all
+  bool namesIgnoreCase = false;
+  bool cutsConstants = false;         // of one that is too large for its length the low bytes count, with a warning
+  Diag undeclared = diag::BadOperand; // reported for a name that is not declared
+  bool needsProgramEnd = true;        // if it has an end of the program
 
   constexpr std::string_view nameOf(Command command) const { return commands[static_cast<size_t>(command)]; }
   constexpr const AreaInfo& at(Area area) const { return areas[static_cast<size_t>(area)]; }
@@ -125,7 +181,9 @@ struct Language {
   const Row& endOf(uint32_t level) const;
   // The level that a Control::LevelEnd ends.
   uint32_t levelOf(const Row& end) const;
-  // The row that shapes the program in this way, other than the end of a level.
+  // The row that shapes the program in this way, other than the end of a level; null if there is none.
+  const Row* findRowOf(Control control) const;
+  // The same, of a row that the language has.
   const Row& rowOf(Control control) const;
   std::string_view mnemonicOf(Control control) const { return rowOf(control).info.mnemonic; }
   // With its number, as in a list: "END1 (FUNC 0)".

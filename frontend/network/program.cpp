@@ -16,15 +16,16 @@ std::string textOf(const Language& language, const Param& param) {
 
 } // namespace
 
-Command commandOf(Logic kind, bool negated) {
+Command commandOf(Logic kind, Contact contact) {
   constexpr Command kOpen[] = {Command::Load, Command::And, Command::Or, Command::OrBlock, Command::AndBlock};
   constexpr Command kClosed[] = {Command::LoadNot, Command::AndNot, Command::OrNot};
-  return negated ? kClosed[static_cast<size_t>(kind)] : kOpen[static_cast<size_t>(kind)];
+  if (contact == Contact::Falling) return Command::LoadFalling;
+  return contact == Contact::Closed ? kClosed[static_cast<size_t>(kind)] : kOpen[static_cast<size_t>(kind)];
 }
 
 Logic logicOf(Command command) {
-  constexpr Logic kLogic[] = {Logic::Load, Logic::Load, Logic::And,     Logic::And,
-                              Logic::Or,   Logic::Or,   Logic::OrBlock, Logic::AndBlock};
+  constexpr Logic kLogic[] = {Logic::Load, Logic::Load, Logic::And,     Logic::And,     Logic::Or,
+                              Logic::Or,   Logic::Load, Logic::OrBlock, Logic::AndBlock};
   return kLogic[static_cast<size_t>(command)];
 }
 
@@ -54,7 +55,7 @@ std::string commandText(const Language& language, const Network& network) {
   };
   for (const LogicStep& step : network.logic) {
     const bool isBlock = step.kind == Logic::OrBlock || step.kind == Logic::AndBlock;
-    line(commandOf(step.kind, step.negated), isBlock ? std::string() : textOf(language, step.bit));
+    line(commandOf(step.kind, step.contact), isBlock ? std::string() : textOf(language, step.bit));
   }
   if (network.function.row != nullptr) {
     line(Command::Function, fmt::format("{}", network.function.row->info.number));

@@ -42,9 +42,11 @@ struct Written {
 
 enum class Logic : uint8_t { Load, And, Or, OrBlock, AndBlock };
 
+enum class Contact : uint8_t { Open, Closed, Falling }; // Falling: 1 for one run after the bit has become 0
+
 struct LogicStep {
   Logic kind = Logic::Load;
-  bool negated = false;
+  Contact contact = Contact::Open;
   Address bit;
   uint32_t line = 0;
   SourceRange range; // of the statement or the element
@@ -52,7 +54,7 @@ struct LogicStep {
 
 enum class Coil : uint8_t { Out, OutInverted, Set, Reset }; // in the order of their commands
 
-Command commandOf(Logic kind, bool negated);
+Command commandOf(Logic kind, Contact contact = Contact::Open);
 // The effect of a logic command on the stack register.
 Logic logicOf(Command command);
 // Of those commands that are logic commands.
@@ -87,6 +89,7 @@ struct Function {
   std::vector<Param> params;
   std::vector<int64_t> table;
   uint32_t length = 1; // in bytes, from the format
+  uint32_t count = 1;  // of elements or bytes, from the format
   SourceRange range;
   uint32_t line = 0;
 };

@@ -76,6 +76,7 @@ struct Definition {
   bool isPlaced = false;      // the declaration determines its place
   std::string_view value;     // of a constant, as declared; empty for a place
   bool usedByControl = false; // by its name, regardless of the program
+  bool isListed = false;      // in a table of the control's tools, which may have more than the program uses
   bool isConstant() const { return !value.empty(); }
 };
 

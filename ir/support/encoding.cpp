@@ -76,8 +76,10 @@ std::optional<std::string> encoded(std::string_view text, const std::string& enc
 
 std::string shownEncoding(std::string_view bytes) {
   if (bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF")) return "UTF-16";
-  const bool isLow = bytes.size() >= 4 && bytes[0] != 0 && bytes[1] == 0 && bytes[2] != 0 && bytes[3] == 0;
-  return isLow ? "UTF-16LE" : "";
+  const auto isCharacter = [&](size_t at) {
+    return (bytes[at] >= ' ' || bytes[at] == '\t' || bytes[at] == '\r' || bytes[at] == '\n') && bytes[at + 1] == 0;
+  };
+  return bytes.size() >= 4 && isCharacter(0) && isCharacter(2) ? "UTF-16LE" : "";
 }
 
 std::string guessedEncoding(std::string_view bytes) {

@@ -103,7 +103,7 @@ Result<FileId> SourceManager::addFile(const std::string& path) {
 
 FileId SourceManager::addBytes(std::string name, std::string bytes) {
   const std::optional<EncodingLine> line = encodingLine(bytes);
-  std::string encoding = line ? line->name : encoding_;
+  std::string encoding = line ? line->name : encoding_.empty() ? shownEncoding(bytes) : encoding_;
   std::optional<Undecoded> undecoded;
   const bool known = encoding.empty() || knowsEncoding(encoding);
   // A byte order mark takes precedence over a declared encoding: the editor that saved the file has converted it to

@@ -39,7 +39,7 @@ LAYERS = {
     **{f"frontend/{folder}": ("frontend/syntax", "frontend/table", "frontend/sema", "frontend/ladder", "frontend/lower", "ir/support", "ir/core",
                               "rtlib/abi", "rtlib/text", "rtlib/nc") for folder in ("syntax", "table", "sema", "ladder", "lower")},
     "frontend/network": ("frontend/syntax", "frontend/table", "frontend/sema", "frontend/ladder", "ir/support", "rtlib/nc/signal.h", "rtlib/text"),
-    "frontend/network/lower": ("frontend", "ir/support", "ir/core", "rtlib/nc/service.h", "rtlib/abi", "rtlib/text"),
+    "frontend/network/lower": ("frontend", "ir/support", "ir/core", "rtlib/nc/service.h", "rtlib/nc/pmc", "rtlib/nc/config_key.h", "rtlib/abi", "rtlib/text"),
     **{f"frontend/dialects/{dialect}": ("frontend/syntax", "frontend/table", "frontend/sema", "frontend/lower", "frontend/ladder",
                                         "frontend/network", "frontend/network/lower", "frontend/dialects/dialect.h", "ir/support", "ir/core", "rtlib/abi", "rtlib/text",
                                         "rtlib/nc") for dialect in DIALECTS},

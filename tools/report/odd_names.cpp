@@ -174,7 +174,7 @@ bool Checker::mayChange(const ir::BitRange& place, const Sides& sides) const {
 }
 
 void Checker::reportUnused(const Definition& definition) {
-  if (settled_.insert(placeOf(definition)).second) report({diag::UnusedName, {}}, definition);
+  if (!definition.isListed && settled_.insert(placeOf(definition)).second) report({diag::UnusedName, {}}, definition);
 }
 
 void Checker::report(const Oddity& oddity, const Definition& definition) {

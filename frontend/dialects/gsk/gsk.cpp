@@ -33,7 +33,7 @@ public:
 
   void check() {
     if (files_.empty()) return;
-    checkConfig(options_, context_.diagnostics);
+    network::checkConfig(options_, kPages, nc::gskConfigKeys(), context_.diagnostics);
     watchSignals(context_, configuredMachine(options_, context_.diagnostics));
     network::Reading reading(context_, program_);
     for (FileId file : files_) reading.add(file);

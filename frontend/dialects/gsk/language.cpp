@@ -4,6 +4,7 @@
 #include "frontend/dialects/gsk/areas.h"
 #include "frontend/dialects/gsk/rows/foreign_words.h"
 #include "frontend/dialects/gsk/rows/instructions.h"
+#include "frontend/network/read/list_reader.h"
 #include "ir/support/diag/gsk.h"
 #include "rtlib/nc/gsk/signals.h"
 
@@ -30,8 +31,9 @@ constexpr network::Level kLevels[] = {
 const network::Language kLanguage = {
     .name = "gsk",
     .listExtension = ".pmc",
+    .list = network::kCommandList,
     // man. Part I §4; the last three are Rung's (P12)
-    .commands = {"LD", "LDI", "AND", "ANI", "OR", "ORI", "ORB", "ANB", "OUT", "OUTI", "SET", "RST", "FUNC", "PRM",
+    .commands = {"LD", "LDI", "AND", "ANI", "OR", "ORI", "", "ORB", "ANB", "OUT", "OUTI", "SET", "RST", "FUNC", "PRM",
                  "TABLE", "DIALECT", "SYMBOL", "CONST"},
     .rows = networkRows(),
     .areas = kAreas,

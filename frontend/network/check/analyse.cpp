@@ -356,6 +356,7 @@ void Analysis::checkNumbers() {
                                                               : diag::DuplicateEdgeNumber;
     const int family = row->numbers == Row::Numbers::Edge ? -1 : row->info.number;
     const Param& number = network.function.params[0];
+    if (number.value == 0) return; // the control's compiler gives it one of its own
     const auto [at, isNew] = seen.emplace(std::pair(family, number.value), number.range);
     if (!isNew) diagnostics_.report(code, number.range).note(at->second, "the first one is here") << number.value;
   });

@@ -35,6 +35,12 @@ ir::Window Lowering::window(const Address& address, uint32_t bytes, uint32_t leg
   return {routine_.level->spaceOf(address), address.byte, legal};
 }
 
+const Language& Lowering::language() const { return module_.language(); }
+
+Address Lowering::result(uint32_t offset) const { return plus(module_.execution().results, offset); }
+
+uint32_t Lowering::room(const Address& address) const { return language().at(address.area).room(address.byte); }
+
 ir::ValueId Lowering::operand(size_t i, ir::Type type) {
   return param(i).isAddress ? load(type, param(i).address) : b.constant(type, param(i).value);
 }

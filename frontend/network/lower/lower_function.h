@@ -44,6 +44,11 @@ public:
   void store(const Address& address, ir::ValueId value);
   // `legal` of the `bytes` from `address` may be the first of an element.
   ir::Window window(const Address& address, uint32_t bytes, uint32_t legal) const;
+  const Language& language() const;
+  // A byte of the result registers, of which each level has a set of its own (P4).
+  Address result(uint32_t offset) const;
+  // The number of bytes from an address to the end of its area.
+  uint32_t room(const Address& address) const;
   // A parameter that is an address or a constant.
   ir::ValueId operand(size_t i, ir::Type type);
 

@@ -75,23 +75,29 @@ void ModuleLowering::lowerUnits() {
 
 void ModuleLowering::addSpaces() {
   for (const AreaInfo& info : language_.areas) {
+    for (LevelState& level : levels_) level.used.emplace_back(info.bytes, false);
+    if (info.bytes == 0) {
+      spaces_.emplace_back();
+      continue;
+    }
     const ir::SpaceId space = frontend::addSpace(
         *module_, {.name = std::string(1, info.letter), .units = info.bytes, .flags = spaceFlags(info.use)});
     spaces_.push_back(space);
-    for (LevelState& level : levels_) level.used.emplace_back(info.bytes, false);
     if (info.retained) module_->retains.push_back({space, 0, info.bytes});
   }
   for (LevelState& level : levels_) {
     level.spaces = spaces_;
     if (!language_.levels[level.level].latchesInputs()) continue;
     for (size_t i = 0; i < spaces_.size(); ++i)
-      if (const AreaInfo& info = language_.areas[i]; info.use == AreaUse::Input)
+      if (const AreaInfo& info = language_.areas[i]; info.use == AreaUse::Input && info.bytes != 0)
         level.spaces[i] = hiddenSpace(fmt::format("@{}{}", info.letter, level.level + 1), info.bytes);
   }
 }
 
 void ModuleLowering::addSymbols() {
-  for (const UserName& symbol : context_.names.ofKind(UserName::Kind::Symbol))
+  for (const UserName& symbol : context_.names.ofKind(UserName::Kind::Symbol)) {
+    const bool exists = language_.at(symbol.address.area).room(symbol.address.byte) > 0;
+    if (!exists || splitAddress(language_, symbol.name)) continue; // an address is always that
     module_->symbols.push_back(
         {.name = std::string(symbol.name),
          .comment = std::string(symbol.comment),
@@ -100,6 +106,7 @@ void ModuleLowering::addSymbols() {
          .bit = symbol.address.bit,
          .type = symbol.address.isBit ? RUNG_TYPE_BIT : RUNG_TYPE_I8,
          .flags = language_.at(symbol.address.area).use == AreaUse::Input ? uint32_t{RUNG_SYMBOL_READONLY} : 0u});
+  }
   frontend::settleSymbols(*module_);
 }
 
@@ -115,6 +122,10 @@ void ModuleLowering::makeKeys() {
       const uint64_t text = hashBytes(commandText(language_, network), hashBytes(nameOf(language_, unit)));
       const uint32_t copy = seen[text]++;
       keys.push_back({rungKey(text, copy), copy});
+      for (const LogicStep& step : network.logic)
+        if (step.contact == Contact::Falling)
+          edgeKeys_[&step] = fmt::format("{}/{}/edge", nameOf(language_, unit),
+                                         alike.numbered("contact " + textOf(language_, step.bit)));
       std::string& prefix = prefixes.emplace_back();
       if (network.function.row == nullptr) continue;
       prefix = fmt::format("{}/{}/", nameOf(language_, unit),
@@ -139,8 +150,19 @@ std::string ModuleLowering::routineName(const LevelState& level, const Unit& uni
   return name;
 }
 
+bool ModuleLowering::isAbsent(uint32_t level) const {
+  return language_.levels[level].optional && withoutEnd(program_.units[level]).empty();
+}
+
+uint32_t ModuleLowering::lastLevel() const {
+  uint32_t level = static_cast<uint32_t>(levels_.size()) - 1;
+  while (isAbsent(level)) --level;
+  return level;
+}
+
 void ModuleLowering::planRoutines(LevelState& level) {
   level.routines.resize(program_.units.size());
+  if (isAbsent(level.level)) return;
   for (uint32_t u = 0; u < program_.units.size(); ++u) {
     const Unit& unit = program_.units[u];
     if (!unit.runBy[level.level]) continue;
@@ -170,7 +192,8 @@ bool ModuleLowering::mayLeaveAfter(const Network& network) const {
 void ModuleLowering::lowerRoutine(LevelState& level, uint32_t unitIndex) {
   const Unit& unit = program_.units[unitIndex];
   RoutineContext context{&level, unitIndex, {}};
-  const bool clock = (level.hasClock || level.countsRuns) && unit.kind != UnitKind::Subprogram;
+  const bool begins = unit.kind != UnitKind::Subprogram && level.level == 0 && execution_.eachSlot;
+  const bool clock = begins || ((level.hasClock || level.countsRuns) && unit.kind != UnitKind::Subprogram);
   uint32_t count = clock ? 1 : 0;
   for (const Network& network : unit.networks) {
     context.rungOf.push_back(count);
@@ -178,7 +201,7 @@ void ModuleLowering::lowerRoutine(LevelState& level, uint32_t unitIndex) {
   }
   ir::Routine& routine = module_->routines[level.routines[unitIndex].index];
   routine.rungs.resize(count);
-  if (clock) addClock(routine, level, unit);
+  if (clock) addClock(routine, context, unit);
   for (uint32_t n = 0; n < unit.networks.size(); ++n) {
     lowerNetwork(context, routine.rungs[context.rungOf[n]], n);
     if (mayLeaveAfter(unit.networks[n])) addLeave(context, routine.rungs[context.rungOf[n] + 1], context.rungOf[n] + 2);
@@ -187,7 +210,8 @@ void ModuleLowering::lowerRoutine(LevelState& level, uint32_t unitIndex) {
 
 // Rung that runs first in a level. Timers advance by the time between two scans, however long it was (P23); window
 // requests count scans (P48).
-void ModuleLowering::addClock(ir::Routine& routine, LevelState& level, const Unit& unit) {
+void ModuleLowering::addClock(ir::Routine& routine, RoutineContext& context, const Unit& unit) {
+  const LevelState& level = *context.level;
   ir::Rung& rung = routine.rungs[0];
   const Network& first = unit.networks.front();
   describe(rung, first, {hashBytes("@clock", hashBytes(nameOf(language_, unit))), 0});
@@ -198,10 +222,23 @@ void ModuleLowering::addClock(ir::Routine& routine, LevelState& level, const Uni
   rung.weight = 1;
   ir::RungBuilder b(*module_, rung);
   if (level.countsRuns) b.slotStore(level.runs, b.add(b.slotLoad(level.runs), b.i32(1)));
+  if (level.level == 0 && execution_.eachSlot) byControl(execution_.eachSlot, context, b, first);
   if (!level.hasClock) return;
   const ir::ValueId now = b.now();
   b.slotStore(level.scanTime, b.sub(now, b.slotLoad(level.clock)));
   b.slotStore(level.clock, now);
+}
+
+void ModuleLowering::byControl(const std::function<void(Lowering&)>& add, RoutineContext& routine, ir::RungBuilder& b,
+                               const Network& network) {
+  Lowering f(*this, routine, b, network, {}, {});
+  add(f);
+}
+
+std::optional<bool> Execution::constantAt(const Address& bit) const {
+  for (const auto& [address, value] : constants)
+    if (address == bit) return value;
+  return std::nullopt;
 }
 
 const Network* ModuleLowering::networkOf(uint32_t unit, const ir::Rung& rung) const {
@@ -213,7 +250,8 @@ const Network* ModuleLowering::networkOf(uint32_t unit, const ir::Rung& rung) co
 }
 
 void ModuleLowering::addTasks(uint32_t parts) {
-  for (const LevelState& level : levels_) addTask(level, parts);
+  for (const LevelState& level : levels_)
+    if (!isAbsent(level.level)) addTask(level, parts);
   addScan(parts);
 }
 
@@ -247,7 +285,7 @@ void ModuleLowering::addScan(uint32_t parts) {
     module_->scan.push_back(advance);
     for (const LevelState& level : levels_) {
       const Turn turn = language_.levels[level.level].turn;
-      if (turn == Turn::LastSlot && part + 1 != parts) continue;
+      if (isAbsent(level.level) || (turn == Turn::LastSlot && part + 1 != parts)) continue;
       const uint32_t op = turn == Turn::Parts && parts != 1 ? RUNG_STEP_PART : RUNG_STEP_RUN;
       module_->scan.push_back({.op = op, .task = ir::TaskId{level.level}, .arg = 1});
       if (part == 0 && turn == Turn::EverySlot) module_->fast.push_back(module_->scan.back());

@@ -1,10 +1,13 @@
 // Lowering of a program to a module: spaces for the areas, a routine for each unit on each level, a task for each
 // level, and the scan as slots (P3). The dialect adds the rest of its control.
 #pragma once
+#include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "frontend/lower/module_items.h"
@@ -21,6 +24,13 @@ struct Execution {
   std::string_view overrunFault; // fault of a run that takes more
   Address results;               // the first result register: each level has a separate set (P4)
   uint32_t resultBytes = 0;      // their number
+  // Bits that never change and that the program does not write, such as one that is always 1.
+  std::vector<std::pair<Address, bool>> constants = {};
+  // Adds what the control does before the first level in each slot, and at the end of each cycle. May be
+  // empty.
+  std::function<void(Lowering& f)> eachSlot = {}, eachCycle = {};
+
+  std::optional<bool> constantAt(const Address& bit) const;
 };
 
 // Units that several levels run are lowered for each level and share their slots.
@@ -84,6 +94,8 @@ public:
   ir::Module& module() { return *module_; }
   ir::SpaceId spaceOf(Area area) const { return spaces_[static_cast<size_t>(area)]; }
   std::span<const LevelState> levels() const { return levels_; }
+  const Language& language() const { return language_; }
+  const Execution& execution() const { return execution_; }
   // The network from which a rung of a unit was made.
   const Network* networkOf(uint32_t unit, const ir::Rung& rung) const;
 
@@ -98,13 +110,19 @@ public:
 private:
   void addSpaces();
   void addSymbols();
+  // A level that a program need not have, and does not.
+  bool isAbsent(uint32_t level) const;
+  // The one that ends a cycle of the main program.
+  uint32_t lastLevel() const;
   void planRoutines(LevelState& level);
   std::string routineName(const LevelState& level, const Unit& unit) const;
   void makeKeys();
   void makeNumbers();
   void lowerRoutine(LevelState& level, uint32_t unit);
   void planClock(LevelState& level);
-  void addClock(ir::Routine& routine, LevelState& level, const Unit& unit);
+  void addClock(ir::Routine& routine, RoutineContext& context, const Unit& unit);
+  void byControl(const std::function<void(Lowering&)>& add, RoutineContext& routine, ir::RungBuilder& b,
+                 const Network& network);
   void lowerNetwork(RoutineContext& routine, ir::Rung& rung, uint32_t network);
   struct Key {
     uint64_t key = 0;
@@ -137,9 +155,10 @@ private:
   std::unordered_map<std::string, ir::SlotId> slots_;
   std::vector<ir::SpaceId> spaces_; // of the areas
   std::unordered_map<std::string, ir::SpaceId> hidden_;
-  std::vector<std::vector<Key>> keys_;                   // by unit and network
-  std::vector<std::vector<std::string>> slotPrefixes_;   // by unit and network, for networks with a function
-  std::unordered_map<const Network*, uint32_t> numbers_; // as drawn; the ends of units have none
+  std::vector<std::vector<Key>> keys_;                         // by unit and network
+  std::vector<std::vector<std::string>> slotPrefixes_;         // by unit and network, for networks with a function
+  std::unordered_map<const LogicStep*, std::string> edgeKeys_; // of contacts for edges
+  std::unordered_map<const Network*, uint32_t> numbers_;       // as drawn; the ends of units have none
   std::vector<LevelState> levels_;
 };
 

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "frontend/lower/operations.h"
 #include "frontend/network/lower/lower_module.h"
 #include "rung/types.hpp"
 
@@ -61,10 +62,13 @@ std::vector<ir::ValueId> ModuleLowering::lowerLogic(LevelState& level, ir::RungB
       stack.back() = step.kind == Logic::OrBlock ? b.or_(stack.back(), top) : b.and_(stack.back(), top);
       continue;
     }
-    level.use(step.bit, 1);
-    ir::ValueId value = b.load(ir::Type::Bit, level.placeOf(step.bit));
-    if (step.negated) value = b.not_(value);
-    marks.element(ir::MarkKind::Contact, value, step.range);
+    const std::optional<bool> constant = execution_.constantAt(step.bit);
+    if (!constant) level.use(step.bit, 1);
+    ir::ValueId value = constant ? b.bit(*constant) : b.load(ir::Type::Bit, level.placeOf(step.bit));
+    if (step.contact == Contact::Closed) value = b.not_(value);
+    if (step.contact == Contact::Falling)
+      value = frontend::pulse(b, slot(edgeKeys_.at(&step), ir::Type::Bit, 0, false), value, frontend::kFalling);
+    if (!constant) marks.element(ir::MarkKind::Contact, value, step.range);
     if (step.kind == Logic::Load)
       stack.push_back(value);
     else
@@ -112,13 +116,16 @@ ir::ValueId ModuleLowering::lowerFunction(RoutineContext& routine, ir::RungBuild
   row.lower(f);
   const bool passes = std::find(conditions.begin(), conditions.end(), f.output()) != conditions.end();
   if (f.output().valid() && !passes) marks.function(ir::MarkKind::Result, f.output(), network.function);
-  return f.output();
+  if (f.output().valid() || conditions.empty()) return f.output();
+  return conditions.back(); // what a coil after a function without an output takes
 }
 
 void ModuleLowering::lowerNetwork(RoutineContext& routine, ir::Rung& rung, uint32_t index) {
   const Network& network = program_.units[routine.unit].networks[index];
   describe(rung, network, keys_[routine.unit][index]);
   ir::RungBuilder b(*module_, rung);
+  const bool endsCycle = routine.unit == lastLevel() && controlOf(network) == Control::LevelEnd;
+  if (endsCycle && execution_.eachCycle) byControl(execution_.eachCycle, routine, b, network);
   const RungMarks marks(marks_, context_.sources, routine.level->routines[routine.unit], routine.rungOf[index]);
   const std::vector<ir::ValueId> conditions = lowerLogic(*routine.level, b, network, marks);
   ir::ValueId value = conditions.empty() ? ir::ValueId{} : conditions[0];

@@ -140,7 +140,7 @@ std::string blocksHint(const Language& language, std::span<const Logic> commands
   const std::vector<Logic> canonical = canonicalLogic(commands);
   if (std::equal(canonical.begin(), canonical.end(), commands.begin(), commands.end())) return {};
   std::string text(kBlocks);
-  for (Logic kind : commands) (text += ' ') += language.nameOf(commandOf(kind, false));
+  for (Logic kind : commands) (text += ' ') += language.nameOf(commandOf(kind));
   return text;
 }
 
@@ -150,7 +150,7 @@ std::optional<std::vector<Logic>> parseBlocksHint(const Language& language, std:
   std::vector<Logic> commands;
   for (std::string_view word : wordsIn(comment.substr(kBlocks.size()))) {
     const auto* const at = std::find_if(std::begin(kLogic), std::end(kLogic), [&](Logic kind) {
-      return text::equalsIgnoringCase(language.nameOf(commandOf(kind, false)), word);
+      return text::equalsIgnoringCase(language.nameOf(commandOf(kind)), word);
     });
     if (at == std::end(kLogic)) return std::nullopt;
     commands.push_back(*at);

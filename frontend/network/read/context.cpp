@@ -17,7 +17,9 @@
 namespace rung::frontend::network {
 namespace {
 
-bool isNameChar(char c) { return text::isLetter(c) || text::isDigit(c) || c == '_'; }
+bool isNameChar(const Language& language, char c) {
+  return text::isLetter(c) || text::isDigit(c) || c == '_' || language.nameMarks.find(c) != std::string_view::npos;
+}
 
 bool isCommand(const Language& language, std::string_view text) {
   const auto isIt = [&](std::string_view name) { return text::equalsIgnoringCase(name, text); };
@@ -35,16 +37,16 @@ bool isNumbered(const Language& language, std::string_view text) {
 
 // Whether the text is a name that cannot mean anything else (P12).
 bool isFreeName(const Language& language, std::string_view text) {
-  if (text.empty() || !text::isLetter(text[0]) || !std::all_of(text.begin(), text.end(), isNameChar)) return false;
+  if (text.empty() || (language.nameMarks.empty() && !text::isLetter(text[0]))) return false;
+  if (!std::ranges::all_of(text, [&](char c) { return isNameChar(language, c); }) || parseConstant(text)) return false;
   return !isNumbered(language, text) && !splitAddress(language, text) && !isCommand(language, text);
 }
 
 bool checkArea(Context& context, const Word& word, Area area, uint64_t byte, uint32_t length) {
   const AreaInfo& info = context.language.at(area);
-  if (byte + length <= info.bytes) return true;
+  if (length <= info.room(byte)) return true;
   const std::string shown = length > 1 ? fmt::format("{} with {} bytes", word.text, length) : std::string(word.text);
-  context.diagnostics.report(diag::AddressOutOfRange, word.range)
-      << shown << fmt::format("{0}0 to {0}{1}", info.letter, info.bytes - 1);
+  context.diagnostics.report(diag::AddressOutOfRange, word.range) << shown << bytesText(info);
   return false;
 }
 
@@ -74,12 +76,12 @@ struct Found {
 };
 
 Found findAddress(Context& context, const Word& word) {
+  if (const auto text = splitAddress(context.language, word.text))
+    return {readAddress(context.diagnostics, *text, word), true};
   if (const uint32_t index = context.names.use(word, UserName::Kind::Symbol); index != frontend::kNoName) {
     const UserName& symbol = context.names[index];
     return {symbol.bad ? std::nullopt : std::optional(NamedAddress{symbol.address, index}), true};
   }
-  if (const auto text = splitAddress(context.language, word.text))
-    return {readAddress(context.diagnostics, *text, word), true};
   if (const auto signal = context.names.useSignal(context.language, word)) return {signal, true};
   return {};
 }
@@ -277,6 +279,15 @@ void Names::addConstant(Context& context, const Word& name, const Word& value) {
   constant->bad = !number;
 }
 
+void Names::addListed(Diagnostics& diagnostics, UserName name) {
+  const uint32_t first = find(name.name);
+  const UserName* known = first == frontend::kNoName ? nullptr : &all()[first];
+  if (known != nullptr && known->kind == name.kind && known->address == name.address && known->value == name.value)
+    return;
+  name.isListed = true;
+  SymbolTable::declare(std::move(name), diagnostics);
+}
+
 uint32_t Names::use(const Word& word, UserName::Kind kind) {
   const uint32_t index = find(word.text);
   if (index == frontend::kNoName || all()[index].kind != kind) return frontend::kNoName;
@@ -300,13 +311,14 @@ std::optional<NamedAddress> Names::useSignal(const Language& language, const Wor
 
 void Names::addTo(frontend::Analysis& analysis, const Language& language) const {
   SymbolTable::addTo(analysis, [&](const UserName& name) {
-    const bool isPlace = name.kind != UserName::Kind::Constant && !name.bad;
+    const bool isPlace = (name.kind == UserName::Kind::Symbol || name.kind == UserName::Kind::Signal) && !name.bad;
     return frontend::Definition{.name = name.name,
                                 .comment = name.comment,
                                 .range = name.declared,
                                 .place = isPlace ? placeOf(language, name.address, 1) : frontend::NamedPlace{},
                                 .isPlaced = isPlace && name.kind == UserName::Kind::Symbol,
-                                .value = name.text};
+                                .value = name.text,
+                                .isListed = name.isListed};
   });
 }
 
@@ -339,7 +351,8 @@ void reportUnknownCommand(Context& context, std::span<const Word> words) {
     return;
   }
   if (!context.diagnostics.suggests()) return;
-  text::Likely similar = text::likeliest(word.text, language.commands);
+  const auto isName = [](std::string_view name) { return !name.empty(); };
+  text::Likely similar = text::likeliest(word.text, language.commands | std::views::filter(isName));
   if (frontend::isModified(word.text, similar.word)) similar = {};
   suggestInstruction(context, word.range, {similar.word, similar.certain && fits(similar.word)}, report);
 }
@@ -377,7 +390,7 @@ void unknownOperand(Context& context, const Word& word, UserName::Kind kind, std
 }
 
 void reportUndeclared(Context& context) {
-  context.names.reportUndeclared(context.diagnostics, diag::BadOperand,
+  context.names.reportUndeclared(context.diagnostics, context.language.undeclared,
                                  [&](DiagBuilder& report, auto uses) { explain(context, uses, report); });
 }
 
@@ -407,6 +420,10 @@ bool checkWritable(Context& context, const Address& address, uint32_t length, So
     context.diagnostics.report(diag::WriteToInput, range) << text << "an input and cannot be written";
     return false;
   }
+  if (address.byte + length > area.readOnly) {
+    context.diagnostics.report(diag::WriteToInput, range) << text << "written by the control alone";
+    return false;
+  }
   if (touchesPreset(area, address.byte, length)) {
     context.diagnostics.report(diag::WriteToPreset, range) << text;
     return false;
@@ -418,7 +435,7 @@ bool checkWritable(Context& context, const Address& address, uint32_t length, So
 
 std::optional<NamedAddress> bitOperand(Context& context, const Word& word) {
   if (!word.range.valid()) return std::nullopt;
-  if (frontend::foreignComparison(word.text)) {
+  if (frontend::foreignComparison(word.text) && !context.names.has(word.text)) {
     reportComparison(context, word);
     return std::nullopt;
   }

@@ -19,16 +19,17 @@ namespace rung::frontend::network {
 
 // A name that the program declares, or a signal that it uses.
 struct UserName {
-  enum class Kind : uint8_t { Symbol, Constant, Signal };
+  enum class Kind : uint8_t { Symbol, Constant, Signal, Numbered };
 
   std::string_view name;
   SourceRange declared;
   Kind kind = Kind::Symbol;
-  bool bad = false; // its declaration was reported: uses are not
+  bool bad = false;      // its declaration was reported: uses are not
+  bool isListed = false; // by addListed
   std::string_view comment;
-  Address address;       // not of a constant
-  std::string_view text; // of a constant, as declared
-  int64_t value = 0;     // of a constant
+  Address address;       // of a symbol or a signal
+  std::string_view text; // of a constant, as declared; of a label or a subprogram, such as "P5"
+  int64_t value = 0;     // of a constant; the number of a label or a subprogram
 };
 
 // An address in an operand.
@@ -46,10 +47,14 @@ struct Context;
 
 class Names : public frontend::SymbolTable<UserName, UndeclaredName> {
 public:
-  Names() { addScope(); }
+  Names() : Names(frontend::asWritten) {}
+  explicit Names(frontend::NameKey keyOf) : SymbolTable(keyOf) { addScope(); }
 
   void addSymbol(Context& context, const Word& name, const Word& value, std::string_view comment);
   void addConstant(Context& context, const Word& name, const Word& value);
+  // A name in a table that the control's own tools have made, whatever its characters are: where it could also be an
+  // address, a number or a command it is that. The same declaration may appear again.
+  void addListed(Diagnostics& diagnostics, UserName name);
 
   bool has(std::string_view name) const { return find(name) != frontend::kNoName; }
   // The meaning of a word, recorded as a use; kNoName if the program has no name of this kind.

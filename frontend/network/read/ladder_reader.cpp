@@ -245,7 +245,7 @@ void RungReader::emitInputs() {
     }
     const Element& contact = rung_.element(step.contact);
     last = placeOf(contact);
-    builder_.contact(step.kind, contact.negated, rung_.operandOf(contact), last);
+    builder_.contact(step.kind, contact.negated ? Contact::Closed : Contact::Open, rung_.operandOf(contact), last);
   }
 }
 

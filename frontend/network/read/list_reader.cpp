@@ -131,7 +131,8 @@ void ListReader::function(const Word& name, Place at) {
 }
 
 void ListReader::dispatch(Command command, std::span<const Word> words, Place at) {
-  if (isContact(command)) return builder_.contact(logicOf(command), isClosed(command), words[1], at);
+  if (isContact(command))
+    return builder_.contact(logicOf(command), isClosed(command) ? Contact::Closed : Contact::Open, words[1], at);
   if (isBlock(command)) return builder_.block(logicOf(command), at);
   if (isCoil(command)) return builder_.coil(coilOf(command), words[1], at);
   if (command == Command::Function) return function(words[1], at);

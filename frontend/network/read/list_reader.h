@@ -4,6 +4,7 @@
 #include <span>
 #include <string_view>
 
+#include "frontend/network/format.h"
 #include "frontend/network/program.h"
 #include "frontend/network/read/context.h"
 #include "frontend/network/read/units.h"
@@ -35,6 +36,7 @@ bool looksLikeComment(std::string_view word);
 // networks.
 void readListSymbols(Context& context, FileId file);
 void readList(Context& context, FileId file, UnitAssembler& units);
+inline constexpr ListForm kCommandList = {&readListSymbols, &readList, &formatList};
 // The last line that is not blank, for reports of what is missing at the end.
 SourceRange lastLineOf(const SourceManager& sources, FileId file);
 

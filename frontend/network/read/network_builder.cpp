@@ -102,7 +102,7 @@ void NetworkBuilder::contactOutOfPlace(Place at) {
   }
 }
 
-void NetworkBuilder::contact(Logic kind, bool negated, const Word& operand, Place at) {
+void NetworkBuilder::contact(Logic kind, Contact type, const Word& operand, Place at) {
   if (kind == Logic::Load) {
     if (state_ != State::Logic) begin(at);
     open_.push_back(at.range);
@@ -115,24 +115,44 @@ void NetworkBuilder::contact(Logic kind, bool negated, const Word& operand, Plac
     contactOutOfPlace(at);
   }
   extend(at);
-  write(commandOf(kind, negated), operand.text, at);
+  write(commandOf(kind, type), operand.text, at);
   const auto bit = readBit(context_, operand, frontend::Access::Read);
   if (bit)
-    network_.logic.push_back({kind, negated, *bit, at.line, at.range});
+    network_.logic.push_back({kind, type, *bit, at.line, at.range});
   else
     network_.bad = true;
+}
+
+void NetworkBuilder::first(Contact type, const Word& operand, Place at) {
+  if (state_ == State::Logic) {
+    if (!silent_)
+      context_.diagnostics.report(diag::UnbalancedStack, at.range)
+              .note(network_.range, "the network that begins here has no output")
+          << fmt::format("{}, but values lie on the stack", beginsWith());
+    silent_ = network_.bad = true;
+    finish();
+  }
+  contact(Logic::Load, type, operand, at);
+}
+
+void NetworkBuilder::further(Contact type, const Word& operand, Place at) {
+  if (state_ != State::Logic) {
+    begin(at);
+    stackError(at, fmt::format("{}; there is no value to push", beginsWith()));
+  }
+  contact(Logic::Load, type, operand, at);
 }
 
 void NetworkBuilder::block(Logic kind, Place at) {
   if (state_ != State::Logic)
     contactOutOfPlace(at);
   else if (depth() < 2)
-    stackError(at, fmt::format("{} joins two blocks, but only one is open here",
-                               context_.language.nameOf(commandOf(kind, false))));
+    stackError(
+        at, fmt::format("{} joins two blocks, but only one is open here", context_.language.nameOf(commandOf(kind))));
   else
     open_.pop_back();
   extend(at);
-  write(commandOf(kind, false), {}, at);
+  write(commandOf(kind), {}, at);
   network_.logic.push_back({.kind = kind, .line = at.line});
 }
 
@@ -190,11 +210,9 @@ void NetworkBuilder::function(const Row* row, Place at) {
     return;
   }
   write(Command::Function, row->info.mnemonic, at);
-  checkConditions(*row, at);
-  if (!row->built) {
-    context_.diagnostics.report(diag::NotBuiltYet, at.range) << row->info.mnemonic;
-    network_.bad = true;
-  }
+  if (row->built) return checkConditions(*row, at);
+  context_.diagnostics.report(diag::NotBuiltYet, at.range) << row->info.mnemonic;
+  network_.bad = true;
 }
 
 void NetworkBuilder::parameter(const Word& operand, Place at) {
@@ -238,7 +256,7 @@ void NetworkBuilder::garbage(Place at) {
 
 void NetworkBuilder::completeFunction() {
   const Row* row = network_.function.row;
-  if (row == nullptr) return;
+  if (row == nullptr || !row->built) return; // nothing is known of its operands either
   if (row->info.output == frontend::Output::Always && state_ == State::Function && !network_.incomplete) {
     context_.diagnostics.report(diag::MissingOutput, network_.function.range) << row->info.mnemonic;
     network_.bad = true;

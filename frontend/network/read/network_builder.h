@@ -22,7 +22,10 @@ public:
   NetworkBuilder(Context& context, FileId file, Sink sink) : context_(context), file_(file), sink_(std::move(sink)) {}
 
   // An operand without a position was reported; the command counts all the same. kind: Load, And or Or.
-  void contact(Logic kind, bool negated, const Word& operand, Place at);
+  void contact(Logic kind, Contact type, const Word& operand, Place at);
+  // A contact of a language that says where a network begins: the first one of a network, and one that pushes.
+  void first(Contact type, const Word& operand, Place at);
+  void further(Contact type, const Word& operand, Place at);
   // kind: OrBlock or AndBlock.
   void block(Logic kind, Place at);
   void coil(Coil kind, const Word& operand, Place at);

@@ -23,6 +23,12 @@ std::optional<int64_t> constantWord(Context& context, const Word& word, std::str
   return value;
 }
 
+bool isConstantWord(const Context& context, const Word& word) {
+  if (parseConstant(word.text)) return true;
+  const uint32_t index = context.names.find(word.text);
+  return index != frontend::kNoName && context.names[index].kind == UserName::Kind::Constant;
+}
+
 // Whether a constant fits into `length` bytes, written signed or unsigned (§6.4).
 bool fits(int64_t value, uint32_t length) {
   const uint32_t bits = length * 8;
@@ -47,13 +53,17 @@ private:
   bool checkFormat(const Word& word, Param& param);
   bool checkNumber(const OperandInfo& info, const Word& word, Param& param);
   bool checkConstant(const Word& word, Param& param);
+  bool checkRow(const Word& word, Param& param);
+  bool checkBounds(const OperandInfo& info, const Word& word, const Param& param);
   bool checkMask(const Word& word, Param& param);
+  std::optional<uint64_t> numberedWord(const Word& word, char letter);
   bool checkNamed(const OperandInfo& info, const Word& word, Param& param);
   bool checkValue(const OperandInfo& info, const Word& word, Param& param);
   bool checkPlace(const Word& word, const OperandKind& kind);
   bool checkAddress(const OperandInfo& info, const Word& word, Param& param);
   void noteSibling(DiagBuilder& report, size_t parameters) const;
   uint32_t lengthOf(const OperandKind& kind) const;
+  int64_t mostOf(const OperandInfo& info) const;
   std::string expectedBy(const OperandKind* kind, std::string_view expected) const;
 
   Context& context_;
@@ -67,27 +77,46 @@ uint32_t ParameterCheck::lengthOf(const OperandKind& kind) const {
   switch (kind.length) {
   case Length::OfKind: return kind.bytes;
   case Length::OfFormat: return lengthKnown_ ? function_.length : 1;
+  case Length::OfElements: return lengthKnown_ ? function_.length * function_.count : 1;
+  case Length::OfCount: return lengthKnown_ ? function_.count : 1;
   case Length::OfNumber: return blockLength_;
   case Length::OfRow: return function_.row->recordBytes;
   }
   return 1;
 }
 
+// The control may have fewer than the language.
+int64_t ParameterCheck::mostOf(const OperandInfo& info) const {
+  const auto most = context_.language.mostNumber;
+  const bool isFirst =
+      &info == function_.row->info.operands.all().data(); // only the first operand is a number of an instruction
+  return most == nullptr || !isFirst ? info.max : std::min(info.max, most(context_.language, *function_.row));
+}
+
 // Checks a format: `1`, `2` or `4` with any leading zeros; a00n has exactly four digits (P20).
 bool ParameterCheck::checkFormat(const Word& word, Param& param) {
-  const bool selects = param.kind->selects;
+  const bool selects = param.kind->selects, counts = param.kind->counts;
   const auto digits = parseDigits(word.text);
   const uint64_t value = digits.value_or(0);
-  const bool constant = value == 1 || value == 2 || value == 4;
+  const uint64_t length = counts ? value % 10 : value;
+  if (param.kind->chooses && digits && value <= 1) {
+    constantOperand_ = value == 0;
+    function_.length = 2;
+    param.value = static_cast<int64_t>(value);
+    return true;
+  }
+  const bool hasLength = (length == 1 || length == 2 || length == 4) && !param.kind->chooses;
+  const bool constant = hasLength && value < 1000;
   const bool address = selects && word.text.size() == 4 && (value == 1001 || value == 1002 || value == 1004);
-  const bool tooLong = selects && word.text.size() > 4;
+  const bool tooLong = (selects || counts) && word.text.size() > 4;
   if ((!constant && !address) || tooLong) {
     context_.diagnostics.report(diag::BadFormat, word.range) << word.text << function_.row->info.mnemonic;
     lengthKnown_ = false;
     return false;
   }
   param.value = static_cast<int64_t>(value);
-  function_.length = static_cast<uint32_t>(value % 1000);
+  function_.length = static_cast<uint32_t>(counts ? length : value % 1000);
+  function_.count = static_cast<uint32_t>(counts ? std::max<uint64_t>(value / 10, 1) : 1);
   constantOperand_ = constant;
   return true;
 }
@@ -97,9 +126,10 @@ bool ParameterCheck::checkNumber(const OperandInfo& info, const Word& word, Para
       constantWord(context_, word, info.doc.empty() ? "a number" : fmt::format("a number ({})", info.doc));
   if (!number) return false;
   param.value = *number;
-  if (param.value < info.min || param.value > info.max) {
+  const int64_t most = mostOf(info);
+  if (param.value < info.min || param.value > most) {
     DiagBuilder report = context_.diagnostics.report(diag::ParameterOutOfRange, word.range);
-    report << word.text << fmt::format("{} to {}", info.min, info.max) << function_.row->info.mnemonic;
+    report << word.text << fmt::format("{} to {}", info.min, most) << function_.row->info.mnemonic;
     if (info.min == info.max) report.note(info.doc);
     return false;
   }
@@ -109,18 +139,32 @@ bool ParameterCheck::checkNumber(const OperandInfo& info, const Word& word, Para
 
 // Adds to `expected` why the format asks for a constant or an address. `kind` is null for the row of a table.
 std::string ParameterCheck::expectedBy(const OperandKind* kind, std::string_view expected) const {
-  if (kind == nullptr || !kind->constant || !kind->address) return std::string(expected);
+  if (kind == nullptr || !kind->constant || !kind->address || kind->either) return std::string(expected);
   const auto format = [&](bool address) { return fmt::format("{}00{}", address ? 1 : 0, function_.length); };
   return fmt::format("{}, which the format {} asks for; {} asks for {}", expected, format(!constantOperand_),
                      format(constantOperand_), constantOperand_ ? "an address" : "a constant");
+}
+
+// Of a constant for which the row has bounds.
+bool ParameterCheck::checkBounds(const OperandInfo& info, const Word& word, const Param& param) {
+  if (info.min > info.max || (param.value >= info.min && param.value <= info.max)) return true;
+  context_.diagnostics.report(diag::ParameterOutOfRange, word.range)
+      << word.text << fmt::format("{} to {}", info.min, info.max) << function_.row->info.mnemonic;
+  return false;
 }
 
 bool ParameterCheck::checkConstant(const Word& word, Param& param) {
   const auto constant = constantWord(context_, word, expectedBy(param.kind, "a constant"));
   if (!constant) return false;
   param.value = *constant;
-  if (!lengthKnown_ || fits(param.value, function_.length)) return true;
-  const uint32_t bits = function_.length * 8;
+  const bool either = param.kind != nullptr && param.kind->either;
+  const uint32_t length = either ? param.kind->bytes : function_.length;
+  if (!lengthKnown_ || fits(param.value, length)) return true;
+  if (context_.language.cutsConstants) {
+    context_.diagnostics.report(diag::ConstantCut, word.range) << word.text << length;
+    return true;
+  }
+  const uint32_t bits = length * 8;
   context_.diagnostics.report(diag::ConstantOutOfRange, word.range)
       << word.text << fmt::format("{} to {}", -(int64_t{1} << (bits - 1)), (int64_t{1} << bits) - 1);
   return false;
@@ -128,28 +172,47 @@ bool ParameterCheck::checkConstant(const Word& word, Param& param) {
 
 bool ParameterCheck::checkMask(const Word& word, Param& param) {
   const auto isBinary = [](char c) { return c == '0' || c == '1'; };
-  if (word.text.size() != 4 || !std::all_of(word.text.begin(), word.text.end(), isBinary)) {
+  std::string_view digits = word.text;
+  while (param.kind->digits < 4 && digits.size() > 4 && digits[0] == '0') digits.remove_prefix(1);
+  const bool hasDigits = digits.size() <= 4 && digits.size() >= param.kind->digits;
+  if (!hasDigits || !std::ranges::all_of(digits, isBinary)) {
     context_.diagnostics.report(diag::BadMask, word.range) << word.text;
     return false;
   }
-  for (char c : word.text) param.value = param.value * 2 + (c - '0');
+  for (char c : digits) param.value = param.value * 2 + (c - '0');
   return true;
+}
+
+// The number of a label or a subprogram, written as P5 or by its name.
+std::optional<uint64_t> ParameterCheck::numberedWord(const Word& word, char letter) {
+  if (word.text.empty()) return std::nullopt;
+  if (text::upper(word.text[0]) == letter)
+    if (const auto number = parseDigits(word.text.substr(1))) return number;
+  const uint32_t index = context_.names.use(word, UserName::Kind::Numbered);
+  if (index == frontend::kNoName || context_.names[index].text[0] != letter) return std::nullopt;
+  return static_cast<uint64_t>(context_.names[index].value);
 }
 
 // Checks the number of a label or subprogram. Number 0 occurs at two places of the manual and is accepted (P2).
 bool ParameterCheck::checkNamed(const OperandInfo& info, const Word& word, Param& param) {
   const std::string_view letter = param.kind->written.substr(0, 1);
-  const bool named = !word.text.empty() && text::upper(word.text[0]) == letter[0];
-  const auto number = named ? parseDigits(word.text.substr(1)) : std::nullopt;
+  const auto number = numberedWord(word, letter[0]);
+  if (!number && context_.language.undeclared != diag::BadOperand) {
+    unknownOperand(context_, word, UserName::Kind::Numbered, fmt::format("a {} such as {}1", param.kind->name, letter));
+    return false;
+  }
   if (!number) {
     context_.diagnostics.report(diag::BadOperand, word.range)
         << word.text << fmt::format("a {} such as {}1", param.kind->name, letter);
     return false;
   }
   param.value = static_cast<int64_t>(*number);
-  if (param.value > info.max) {
+  if (param.value > mostOf(info)) {
     context_.diagnostics.report(diag::ParameterOutOfRange, word.range)
-        << word.text << info.doc << function_.row->info.mnemonic;
+        << word.text
+        << (mostOf(info) == 0 ? "what this control has: none"
+                              : fmt::format("{0}{1}-{0}{2}", letter, info.min, mostOf(info)))
+        << function_.row->info.mnemonic;
     return false;
   }
   if (param.value == 0) context_.diagnostics.report(diag::LabelZero, word.range) << info.doc;
@@ -183,7 +246,7 @@ bool ParameterCheck::checkAddress(const OperandInfo& info, const Word& word, Par
                          .place = placeOf(context_.language, *address, length),
                          .access = info.access,
                          .isVariable = isVariable(*param.kind)});
-  param.bytes = param.kind->rest ? context_.language.at(address->area).bytes - address->byte : length;
+  param.bytes = param.kind->rest ? context_.language.at(address->area).room(address->byte) : length;
   return info.access == Access::Read || checkWritable(context_, *address, length, word.range);
 }
 
@@ -196,9 +259,11 @@ bool ParameterCheck::lost(const Word& word, const Param& param) {
 
 bool ParameterCheck::checkValue(const OperandInfo& info, const Word& word, Param& param) {
   const OperandKind& kind = *param.kind;
-  if (kind.constant && kind.address && !lengthKnown_) return false; // the format, which decides, is not known
-  const bool isConstant = kind.constant && (!kind.address || constantOperand_);
-  return isConstant ? checkConstant(word, param) : checkAddress(info, word, param);
+  if (kind.constant && kind.address && !kind.either && !lengthKnown_)
+    return false; // the format, which decides, is not known
+  const bool selected = kind.either ? isConstantWord(context_, word) : !kind.address || constantOperand_;
+  const bool isConstant = kind.constant && selected;
+  return isConstant ? checkConstant(word, param) && checkBounds(info, word, param) : checkAddress(info, word, param);
 }
 
 bool ParameterCheck::checkOne(const OperandInfo& info, const Word& word, Param& param) {
@@ -245,15 +310,27 @@ bool ParameterCheck::check(const std::vector<Word>& words) {
   return good;
 }
 
+bool ParameterCheck::checkRow(const Word& word, Param& param) {
+  const int64_t most = function_.row->mostRow;
+  if (most < 0) return checkConstant(word, param);
+  const auto constant = constantWord(context_, word, "a constant");
+  if (!constant) return false;
+  param.value = *constant;
+  if (param.value >= 0 && param.value <= most) return true;
+  context_.diagnostics.report(diag::ConstantOutOfRange, word.range) << word.text << fmt::format("0 to {}", most);
+  return false;
+}
+
 bool ParameterCheck::checkTable(const std::vector<Word>& rows, bool capacityKnown) {
   bool good = true;
   for (const Word& row : rows) {
     Param param;
-    good = row.range.valid() && checkConstant(row, param) && good;
+    good = row.range.valid() && checkRow(row, param) && good;
     function_.table.push_back(param.value);
   }
   if (!capacityKnown) return false;
-  const int64_t capacity = function_.params[1].value;
+  const int64_t given = function_.params[function_.row->capacityAt].value;
+  const int64_t capacity = given == 0 ? 100 : given;
   if (static_cast<int64_t>(rows.size()) == capacity) return good;
   context_.diagnostics.report(diag::TableSizeMismatch, function_.range)
       << (rows.size() == 1 ? "1 row" : fmt::format("{} rows", rows.size())) << capacity;

@@ -31,9 +31,10 @@ void Reading::add(FileId file) {
 }
 
 bool Reading::read() {
-  for (FileId file : lists_) readListSymbols(context_, file);
+  const ListForm& list = context_.language.list;
+  for (FileId file : lists_) list.readDeclarations(context_, file);
   for (const auto& file : ladders_) readLadderDeclarations(context_, file);
-  for (FileId file : lists_) readList(context_, file, units_);
+  for (FileId file : lists_) list.read(context_, file, units_);
   if (!lists_.empty()) units_.endOfList(lastLineOf(context_.sources, lists_.back()));
   for (const auto& file : ladders_) readLadder(context_, file, units_);
   reportUndeclared(context_);

@@ -18,6 +18,7 @@ void UnitAssembler::add(Network&& network) {
   case Control::LevelEnd: return endLevel(std::move(network));
   case Control::Sp: return beginSubprogram(network);
   case Control::Spe: return endSubprogram(std::move(network));
+  case Control::ProgramEnd: return endProgram(std::move(network));
   case Control::Plain:
   case Control::Jmp:
   case Control::Jmpe:
@@ -39,6 +40,33 @@ void UnitAssembler::body(Network&& network) {
   program_.units[levelCount() - 1].networks.push_back(std::move(network)); // its labels, calls and regions still count
 }
 
+const Row& UnitAssembler::lastEnd() const {
+  uint32_t level = levelCount() - 1;
+  while (level > 0 && language_.levels[level].optional && !ends_[level].valid()) --level;
+  return language_.endOf(level);
+}
+
+// What follows the last end that is needed, and is not ended as a level, is none.
+void UnitAssembler::leaveOptional() {
+  if (current_ == kNone || current_ == 0 || !open_.empty() || !language_.levels[current_].optional) return;
+  for (const Network& network : program_.units[current_].networks) {
+    if (!network.incomplete) stray_.push_back(network.range);
+    break;
+  }
+  current_ = kNone;
+}
+
+void UnitAssembler::endProgram(Network&& network) {
+  leaveOptional();
+  closeAll();
+  if (programEnd_.valid())
+    context_.diagnostics.report(diag::DuplicateProgramEnd, network.function.range)
+        << network.function.row->info.mnemonic;
+  programEnd_ = network.function.range;
+  giveBackSource(network);
+  strayReported_ = false;
+}
+
 uint32_t UnitAssembler::nextEnded(uint32_t level) const {
   while (++level < levelCount() && !ends_[level].valid()) {
   }
@@ -54,7 +82,7 @@ void UnitAssembler::endLevel(Network&& network) {
     return;
   }
   ends_[level] = range;
-  if (const uint32_t later = nextEnded(level); later != levelCount()) return endOrder(level, later, range);
+  if (const std::string before = isAfter(level); !before.empty()) return endOrder(level, before, range);
   closeAll();
   current_ = level + 1 == levelCount() ? kNone : level + 1;
   if (current_ != kNone)
@@ -86,11 +114,19 @@ void UnitAssembler::giveBackSource(Network& network) {
   context_.gaps.giveBack(std::exchange(network.gap, {}));
 }
 
-void UnitAssembler::endOrder(uint32_t level, uint32_t later, SourceRange range) {
-  stray_.clear(); // networks between the two ends are misplaced only because of their order
+std::string UnitAssembler::isAfter(uint32_t level) const {
+  if (const uint32_t later = nextEnded(level); later != levelCount())
+    return language_.fullNameOf(language_.endOf(later));
+  if (programEnd_.valid()) return language_.fullNameOf(*language_.findRowOf(Control::ProgramEnd));
+  const bool hasSubprograms = program_.units.size() > levelCount();
+  return language_.levels[level].optional && hasSubprograms ? "a subprogram" : "";
+}
+
+void UnitAssembler::endOrder(uint32_t level, std::string_view before, SourceRange range) {
+  stray_.clear(); // networks between the two are misplaced only because of their order
   strayReported_ = false;
-  context_.diagnostics.report(diag::EndOrder, range)
-      << language_.fullNameOf(language_.endOf(level)) << language_.fullNameOf(language_.endOf(later));
+  if (current_ != kNone && language_.levels[current_].optional) current_ = kNone;
+  context_.diagnostics.report(diag::EndOrder, range) << language_.fullNameOf(language_.endOf(level)) << before;
 }
 
 uint32_t UnitAssembler::openSubprogram(uint32_t number, SourceRange range, SourceRange name) {
@@ -117,12 +153,15 @@ void UnitAssembler::nest(SourceRange inner) {
 }
 
 void UnitAssembler::beginSubprogram(Network& network) {
+  leaveOptional();
   strayReported_ = false;
   const SourceRange range = network.function.range;
   if (!open_.empty())
     nest(range);
   else if (current_ != kNone)
     misplaced_.push_back(range);
+  else if (programEnd_.valid())
+    stray_.push_back(range);
   const uint32_t outside = current_;
   if (network.function.params.empty() || network.function.params[0].bad) { // already reported; its number is unknown
     program_.units.push_back(Unit{.kind = UnitKind::Subprogram, .number = kNone, .range = range, .nameRange = range});
@@ -159,14 +198,17 @@ void UnitAssembler::closeAll() {
 }
 
 void UnitAssembler::endOfList(SourceRange lastLine) {
-  const std::string_view last = lastEnd().info.mnemonic;
+  leaveOptional();
+  const std::string_view last =
+      (programEnd_.valid() ? *language_.findRowOf(Control::ProgramEnd) : lastEnd()).info.mnemonic;
   for (SourceRange range : stray_) context_.diagnostics.report(diag::CodeAfterEnd2, range) << last;
-  if (!ends_.back().valid() && misplaced_.size() > 1) misplaced_.resize(1); // only the missing end is reported
+  if (!ends_[language_.mainLevel()].valid() && misplaced_.size() > 1)
+    misplaced_.resize(1); // only the missing end is reported
   for (SourceRange range : misplaced_) context_.diagnostics.report(diag::SubprogramMisplaced, range) << last;
   closeAll();
   if (incomplete_) return;
   for (uint32_t level = 0; level < levelCount(); ++level) {
-    if (ends_[level].valid()) continue;
+    if (ends_[level].valid() || language_.levels[level].optional) continue;
     const uint32_t later = nextEnded(level);
     const Row& end = language_.endOf(level);
     DiagBuilder report = context_.diagnostics.report(language_.levels[level].endMissing,
@@ -176,6 +218,9 @@ void UnitAssembler::endOfList(SourceRange lastLine) {
       report.note(fmt::format("write `{} {}` before the first network of {}", language_.nameOf(Command::Function),
                               end.info.mnemonic, language_.levels[level + 1].name));
   }
+  const Row* end = language_.findRowOf(Control::ProgramEnd);
+  if (end != nullptr && language_.needsProgramEnd && !programEnd_.valid() && ends_[language_.mainLevel()].valid())
+    context_.diagnostics.report(diag::MissingEnd, lastLine) << language_.fullNameOf(*end);
 }
 
 uint32_t UnitAssembler::openLevel(uint32_t level, SourceRange module) {

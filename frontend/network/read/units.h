@@ -32,9 +32,13 @@ public:
 
 private:
   void endLevel(Network&& network);
-  void endOrder(uint32_t level, uint32_t later, SourceRange range);
+  void endOrder(uint32_t level, std::string_view before, SourceRange range);
+  // Text of what an end of a level must not follow; "" if it is in its place.
+  std::string isAfter(uint32_t level) const;
   void beginSubprogram(Network& network);
   void endSubprogram(Network&& network);
+  void endProgram(Network&& network);
+  void leaveOptional();
   void body(Network&& network);
   static void takeSource(Unit& unit, Network& network);
   void giveBackSource(Network& network);
@@ -44,7 +48,7 @@ private:
   // The first level after `level` whose end was found; levelCount() if there is none.
   uint32_t nextEnded(uint32_t level) const;
   // The end after which subprograms must follow.
-  const Row& lastEnd() const { return language_.endOf(levelCount() - 1); }
+  const Row& lastEnd() const;
 
   const Language& language_;
   Context& context_;
@@ -59,6 +63,7 @@ private:
   std::vector<Open> open_; // subprograms, the innermost last
   bool nestedReported_ = false;
   bool sawList_ = false;
+  SourceRange programEnd_;             // invalid: not found
   std::vector<SourceRange> ends_;      // of the levels; invalid: not found
   bool strayReported_ = false;         // for this run of commands after the last level
   std::vector<SourceRange> stray_;     // ranges of such runs

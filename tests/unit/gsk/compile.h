@@ -1,59 +1,23 @@
 // Compiles a text of the dialect in a test.
 #pragma once
-#include <memory>
-#include <string>
-#include <vector>
-
 #include "frontend/dialects/gsk/gsk.h"
-#include "ir/support/diag_render.h"
+#include "tests/support/compiled.h"
 
 namespace rung::frontend::gsk::test {
 
-struct Compiled {
-  SourceManager sources;
-  Diagnostics diagnostics;
-  std::unique_ptr<ir::Module> module;
+using frontend::test::Codes;
+using frontend::test::Compiled;
+using frontend::test::File;
+using frontend::test::listed;
 
-  // "LINE CODE" of every report, in the order of the lines; "-" where there is no place.
-  std::vector<std::string> codes() const {
-    std::vector<std::string> result;
-    for (const Diagnostic* d : diagnostics.sorted()) {
-      const std::string line = d->range.valid() ? std::to_string(sources.lineCol(d->range.begin).line) : "-";
-      result.push_back(line + " " + std::string(diagInfo(d->id).code));
-    }
-    return result;
-  }
-  std::string text() const { return renderText(diagnostics, sources); }
-};
-
-struct File {
-  std::string name;
-  std::string text;
-};
-
-inline std::unique_ptr<Compiled> compileFiles(const std::vector<File>& texts,
-                                              const frontend::CompileOptions& options = {}) {
-  auto result = std::make_unique<Compiled>();
-  std::vector<FileId> files;
-  for (const File& file : texts) files.push_back(result->sources.addBuffer(file.name, file.text));
-  result->module = kGsk.compile(result->sources, files, options, result->diagnostics);
-  return result;
+inline std::unique_ptr<Compiled> compileFiles(const std::vector<File>& texts, const CompileOptions& options = {}) {
+  return frontend::test::compileFiles(kGsk, texts, options);
 }
-
-inline std::unique_ptr<Compiled> compileList(const std::string& text, const frontend::CompileOptions& options = {}) {
+inline std::unique_ptr<Compiled> compileList(const std::string& text, const CompileOptions& options = {}) {
   return compileFiles({{"test.pmc", text}}, options);
 }
-inline std::unique_ptr<Compiled> compileLadder(const std::string& text, const frontend::CompileOptions& options = {}) {
+inline std::unique_ptr<Compiled> compileLadder(const std::string& text, const CompileOptions& options = {}) {
   return compileFiles({{"test.lad", text}}, options);
-}
-
-using Codes = std::vector<std::string>;
-
-// In one text: hundreds of lists to compare with cost the compiler more than the whole rest of a test.
-inline std::string listed(const Codes& codes) {
-  std::string text;
-  for (const std::string& code : codes) text += (text.empty() ? "" : ", ") + code;
-  return text;
 }
 
 } // namespace rung::frontend::gsk::test

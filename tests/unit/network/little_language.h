@@ -6,6 +6,7 @@
 
 #include "frontend/network/lower/lower_function.h"
 #include "frontend/network/operand_kind.h"
+#include "frontend/network/read/list_reader.h"
 #include "ir/support/diag/gsk.h"
 
 namespace rung::frontend::network::test {
@@ -107,8 +108,9 @@ inline const frontend::InstructionInfo* findBox(std::string_view mnemonic);
 inline constexpr Language kLittle = {
     .name = "little",
     .listExtension = ".lst",
-    .commands = {"GET", "GETN", "WITH", "WITHN", "ELSE", "ELSEN", "MERGE", "MEET", "PUT", "PUTN", "HOLD", "DROP", "DO",
-                 "ARG", "ROW", "DIALECT", "SYMBOL", "CONST"},
+    .list = kCommandList,
+    .commands = {"GET", "GETN", "WITH", "WITHN", "ELSE", "ELSEN", "", "MERGE", "MEET", "PUT", "PUTN", "HOLD", "DROP",
+                 "DO", "ARG", "ROW", "DIALECT", "SYMBOL", "CONST"},
     .rows = kRowPointers,
     .areas = kAreas,
     .signals = signals,

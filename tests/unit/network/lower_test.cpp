@@ -13,7 +13,7 @@
 namespace rung::frontend::network::test {
 namespace {
 
-constexpr Execution kExecution{
+const Execution kExecution{
     .slotUs = 1000, .budget = 100, .overrunFault = "too-long", .results = {Area{2}, 12}, .resultBytes = 2};
 
 std::unique_ptr<ir::Module> lowered(const std::string& text, const Language& language, uint32_t parts) {

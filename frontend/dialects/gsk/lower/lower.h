@@ -25,29 +25,9 @@ using enum frontend::Arithmetic;
 
 void lowerTimer(Lowering& f);
 void lowerCounter(Lowering& f);
-void lowerEdge(Lowering& f);
 
-void lowerDecode(Lowering& f);
-void lowerMoveMasked(Lowering& f);
-void lowerMoveOr(Lowering& f);
-void lowerMove(Lowering& f);
-void lowerMoveBlock(Lowering& f);
-void lowerNumber(Lowering& f);
-void lowerLogic(Lowering& f);
-void lowerNot(Lowering& f);
-void lowerShift(Lowering& f);
-void lowerParity(Lowering& f);
 void lowerCompare(Lowering& f);
 void lowerCoincidence(Lowering& f);
-
-void lowerArithmetic(Lowering& f);
-void lowerDivision(Lowering& f);
-void lowerBcd(Lowering& f);
-
-void lowerRotation(Lowering& f);
-void lowerCodeTable(Lowering& f);
-void lowerSearch(Lowering& f);
-void lowerIndexedMove(Lowering& f);
 
 void lowerWindow(Lowering& f);
 void lowerAxisControl(Lowering& f);

@@ -1,14 +1,13 @@
-// Timers, counters and edges (§7.2, §7.4, §7.13).
+// Timers and counters: where their presets and values are (§7.2, §7.4).
 #include "frontend/dialects/gsk/config.h"
 #include "frontend/dialects/gsk/lower/lower.h"
+#include "frontend/network/lower/functions.h"
 
 namespace rung::frontend::gsk {
 namespace {
 
 using ir::Type;
 using ir::ValueId;
-
-constexpr int64_t kNotRunning = INT64_MIN / 2; // elapsed time of an idle timer: adding any gain leaves it negative
 
 // The preset in microseconds.
 ValueId presetOf(Lowering& f) {
@@ -17,7 +16,7 @@ ValueId presetOf(Lowering& f) {
   const auto word = [&](const network::Address& address, int64_t unitMs) {
     return f.b.mul(f.b.zextOrTrunc(Type::I64, f.load(Type::I16, address)), f.b.constant(Type::I64, unitMs * kUsPerMs));
   };
-  const int64_t first = f.param(0).value;
+  const auto first = static_cast<uint64_t>(f.param(0).value);
   switch (f.variant()) {
   case kTimerPage: return word(timerPreset(first), timerUnitMs(first));
   case kTimerMemory: return word(f.param(1).address, kAccuracyMs[first]);
@@ -25,97 +24,21 @@ ValueId presetOf(Lowering& f) {
   }
 }
 
-// Time that a timer gains (P23): the time since it ran in this or the last scan. That is not always the time of a scan,
-// because a jump may move the timer into another part of Level 2. If it was not reached for longer, it gains one scan
-// time (P19).
-ValueId gainOf(Lowering& f) {
-  if (f.onceEachRun()) return f.scanTime();
-  ir::RungBuilder& b = f.b;
-  const ir::SlotId last = f.slot("last", Type::I64);
-  const ValueId since = b.sub(b.now(), b.slotLoad(last));
-  b.slotStore(last, b.now());
-  return b.select(b.leS(since, f.sinceLastRun()), since, f.scanTime());
-}
-
 } // namespace
 
 void lowerTimer(Lowering& f) {
-  ir::RungBuilder& b = f.b;
-  const ir::SlotId elapsed = f.slot("elapsed", Type::I64, kNotRunning);
-  const auto grow = [&] {
-    const ValueId preset = presetOf(f);
-    const ValueId gain = gainOf(f);
-    const ValueId grown = b.add(b.slotLoad(elapsed), gain);
-    b.slotStore(elapsed, grown);
-    const ValueId zero = b.constant(Type::I64, 0);
-    const auto begin = [&] {
-      b.slotStore(elapsed, zero);
-      return zero;
-    };
-    return b.leS(preset, b.choose(b.ltS(grown, zero), begin, [&] { return grown; }, ir::kSeldom));
-  };
-  f.setOutput(b.choose(f.act(), grow, [&] {
-    b.slotStore(elapsed, b.constant(Type::I64, kNotRunning));
-    return b.bit(false);
-  }));
+  network::onDelay(f, [&] { return presetOf(f); });
 }
 
+// P28: CTRC keeps the edge in bit 0 of register +2.
 void lowerCounter(Lowering& f) {
-  ir::RungBuilder& b = f.b;
   const bool inMemory = f.variant() == kCounterMemory;
-  const network::Address preset = inMemory ? f.param(0).address : counterPreset(f.param(0).value);
-  network::Address value = inMemory ? f.param(1).address : counterValue(f.param(0).value);
-  const ValueId cn0 = f.condition(0), down = f.condition(1), reset = f.condition(2);
-
-  // P28: the edge is evaluated in every scan; CTRC keeps it in bit 0 of register +2.
-  ValueId before;
-  if (inMemory) {
-    const network::Address edge{value.area, value.byte + 2, 0, true};
-    before = f.load(Type::Bit, edge);
-    f.store(edge, f.act());
-  } else {
-    before = frontend::exchange(b, f.slot("edge", Type::Bit), f.act());
-  }
-  const ValueId pulse = frontend::edge(b, before, f.act());
-  const ir::SlotId w = f.slot("W", Type::Bit);
-
-  // These are branches because the direction of a counter rarely changes.
-  const auto bottom = [&] { return b.zextOrTrunc(Type::I16, cn0); }; // P26
-  const auto top = [&] { return f.load(Type::I16, preset); };
-  const auto startAgain = [&] {
-    f.store(value, b.choose(down, top, bottom));
-    return b.bit(false);
-  };
-  // Counts from one end to the other, then starts again.
-  const auto count = [&](ValueId from, ValueId to, ValueId isOver, ValueId next) {
-    const ValueId now = b.select(isOver, from, next);
-    f.store(value, now);
-    return b.eq(now, to); // P27
-  };
-  const auto step = [&] {
-    const ValueId old = f.load(Type::I16, value);
-    const ValueId one = b.constant(Type::I16, 1);
-    const auto up = [&] {
-      const ValueId end = top();
-      return count(bottom(), end, b.leU(end, old), b.add(old, one));
-    };
-    const auto downward = [&] {
-      const ValueId end = bottom();
-      return count(top(), end, b.leU(old, end), b.sub(old, one));
-    };
-    return b.choose(down, downward, up);
-  };
-  const auto kept = [&](ValueId out) {
-    b.slotStore(w, out);
-    return out;
-  };
-  const auto go = [&] {
-    return b.choose(pulse, [&] { return kept(step()); }, [&] { return b.slotLoad(w); }, ir::kSeldom);
-  };
-  f.setOutput(b.choose(reset, [&] { return kept(startAgain()); }, go, ir::kSeldom));
+  const network::Address preset =
+      inMemory ? f.param(0).address : counterPreset(static_cast<uint64_t>(f.param(0).value));
+  network::ringCounter(f, {.preset = [&] { return f.load(Type::I16, preset); },
+                           .value = inMemory ? network::Address(f.param(1).address)
+                                             : counterValue(static_cast<uint64_t>(f.param(0).value)),
+                           .keepsEdge = inMemory});
 }
-
-// P39: the edge state belongs to the instruction.
-void lowerEdge(Lowering& f) { f.setOutput(frontend::pulse(f.b, f.slot("edge", Type::Bit), f.act(), f.variant())); }
 
 } // namespace rung::frontend::gsk

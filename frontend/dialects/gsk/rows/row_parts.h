@@ -6,7 +6,7 @@
 #include "frontend/dialects/gsk/lower/lower.h"
 #include "frontend/dialects/gsk/rows/instructions.h"
 #include "frontend/dialects/gsk/rows/operand_kinds.h"
-#include "frontend/network/lower/lower_function.h"
+#include "frontend/network/lower/functions.h"
 
 namespace rung::frontend::gsk {
 
@@ -16,12 +16,30 @@ using frontend::Output;
 using frontend::PinInfo;
 using frontend::Placement;
 using network::Control;
+using network::lowerArithmetic;
+using network::lowerBcd;
 using network::lowerCall;
+using network::lowerCodeTable;
 using network::lowerCommonLine;
+using network::lowerDecode;
+using network::lowerDivision;
+using network::lowerEdge;
 using network::lowerEnd;
+using network::lowerIndexedMove;
 using network::lowerJump;
 using network::lowerLeave;
+using network::lowerLogic;
 using network::lowerMark;
+using network::lowerMove;
+using network::lowerMoveBlock;
+using network::lowerMoveMasked;
+using network::lowerMoveOr;
+using network::lowerNot;
+using network::lowerNumber;
+using network::lowerParity;
+using network::lowerRotation;
+using network::lowerSearch;
+using network::lowerShift;
 using OperandList = decltype(frontend::InstructionInfo::operands);
 
 constexpr OperandInfo in(std::string_view name, const OperandKind& kind, std::string_view doc = {}) {

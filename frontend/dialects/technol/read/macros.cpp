@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "frontend/sema/operand_count.h"
+#include "ir/support/diag/operand.h"
 #include "ir/support/diag/technol.h"
 #include "rtlib/text/letters.h"
 

@@ -3,22 +3,20 @@
 #include <array>
 #include <string>
 
-#include "frontend/dialects/gsk/lower/lower.h"
+#include "frontend/network/lower/functions.h"
 
-namespace rung::frontend::gsk {
+namespace rung::frontend::network {
 namespace {
 
 using ir::Type;
 using ir::ValueId;
 
-// Number of entries of a table in D that fit before the area's end (P35).
-uint32_t entriesFrom(const network::Address& table, uint32_t length) {
-  return (kLanguage.at(table.area).bytes - table.byte) / length;
-}
+// Number of entries of a table that fit before the area's end (P35).
+uint32_t entriesFrom(const Lowering& f, const Address& table) { return f.room(table) / f.function.length; }
 
 // Window of consecutive entries of `length` bytes; its index counts bytes.
-ir::Window tableWindow(Lowering& f, const network::Address& table) {
-  const uint32_t entries = entriesFrom(table, f.function.length);
+ir::Window tableWindow(Lowering& f, const Address& table) {
+  const uint32_t entries = entriesFrom(f, table);
   return f.window(table, entries * f.function.length, (entries - 1) * f.function.length + 1);
 }
 
@@ -28,31 +26,41 @@ ValueId unsignedWord(Lowering& f, size_t param, Type type) {
   return f.b.zextOrTrunc(type, f.load(f.dataType(), f.param(param).address));
 }
 
-// Direction and result of a rotation, positions counted from 0 (§7.5).
+// Direction and result of a rotation.
 struct Path {
   ValueId reverse; // bit
   ValueId result;
 };
 
-Path pathOf(Lowering& f, ValueId count, ValueId current, ValueId target, ValueId base) {
-  ir::RungBuilder& b = f.b;
-  const auto wrapped = [&](ValueId x) { return b.remU(x, count); };
+Path pathOf(ir::RungBuilder& b, const Rotation& r) {
+  const auto wrapped = [&](ValueId x) { return b.remU(x, r.count); };
   const ValueId one = b.constant(Type::I64, 1);
-  const ValueId forward = wrapped(b.sub(b.add(target, count), current));
-  const ValueId backward = wrapped(b.sub(b.add(current, count), target));
-  const ValueId reverse = b.and_(f.condition(1), b.ltU(backward, forward)); // P30: a tie goes forward
-  const ValueId pos = f.condition(2);
+  const ValueId forward = wrapped(b.sub(b.add(r.target, r.count), r.current));
+  const ValueId backward = wrapped(b.sub(b.add(r.current, r.count), r.target));
+  const ValueId reverse = b.and_(r.shorter, b.ltU(backward, forward)); // P30: a tie goes forward
   const ValueId steps = b.select(reverse, backward, forward);
-  const ValueId fewer = b.sub(steps, b.zextOrTrunc(Type::I64, pos));
+  const ValueId fewer = b.sub(steps, b.zextOrTrunc(Type::I64, r.before));
   const ValueId number = b.select(b.eq(steps, b.constant(Type::I64, 0)), steps, fewer); // P31
-  const ValueId before = b.select(reverse, wrapped(b.add(target, one)), wrapped(b.sub(b.add(target, count), one)));
-  const ValueId position = b.add(b.select(pos, before, target), base);
-  return {reverse, b.select(f.condition(3), number, position)};
+  const ValueId before =
+      b.select(reverse, wrapped(b.add(r.target, one)), wrapped(b.sub(b.add(r.target, r.count), one)));
+  const ValueId position = b.add(b.select(r.before, before, r.target), r.base);
+  return {reverse, b.select(r.asSteps, number, position)};
 }
 
 } // namespace
 
-// Conditions CN0, DIR, POS, INC, ACT. A position outside the table changes nothing (P31).
+// A count of 0 never satisfies the condition.
+ValueId rotate(Lowering& f, const Rotation& r, const std::function<void(ValueId)>& store) {
+  ir::RungBuilder& b = f.b;
+  const auto turn = [&] {
+    const Path path = pathOf(b, r);
+    store(path.result);
+    return path.reverse;
+  };
+  return b.choose(b.and_(b.ltU(r.current, r.count), b.ltU(r.target, r.count)), turn, [&] { return f.oldOutput(); });
+}
+
+// Conditions CN0, DIR, POS, INC, ACT.
 void lowerRotation(Lowering& f) {
   f.latchedOutput(f.act(), {}, [&] {
     ir::RungBuilder& b = f.b;
@@ -60,13 +68,14 @@ void lowerRotation(Lowering& f) {
     const ValueId count = unsignedWord(f, 1, Type::I64);
     const ValueId current = b.sub(unsignedWord(f, 2, Type::I64), base);
     const ValueId target = b.sub(unsignedWord(f, 3, Type::I64), base);
-    const auto turn = [&] {
-      const Path path = pathOf(f, count, current, target, base);
-      f.store(f.param(4).address, b.trunc(f.dataType(), path.result));
-      return path.reverse;
-    };
-    // A count of 0 never satisfies the condition.
-    return b.choose(b.and_(b.ltU(current, count), b.ltU(target, count)), turn, [&] { return f.oldOutput(); });
+    const Rotation rotation{.count = count,
+                            .current = current,
+                            .target = target,
+                            .base = base,
+                            .shorter = f.condition(1),
+                            .before = f.condition(2),
+                            .asSteps = f.condition(3)};
+    return rotate(f, rotation, [&](ValueId result) { f.store(f.param(4).address, b.trunc(f.dataType(), result)); });
   });
 }
 
@@ -95,7 +104,7 @@ constexpr uint32_t kBlock = 32;
 // Whether an entry in the block from `start`, below `limit`, matches; and the index of the first match.
 std::array<ValueId, 2> searchBlock(Lowering& f, ValueId start, ValueId limit, ValueId searched) {
   ir::RungBuilder& b = f.b;
-  const network::Address& table = f.param(2).address;
+  const Address& table = f.param(2).address;
   const ValueId none[] = {b.bit(false), b.i32(0)};
   const auto inside = b.loop(kBlock, none);
   const ValueId entry = b.add(start, inside[0]);
@@ -114,7 +123,7 @@ std::array<ValueId, 2> searchBlock(Lowering& f, ValueId start, ValueId limit, Va
 void lowerSearch(Lowering& f) {
   f.resettable([&] {
     ir::RungBuilder& b = f.b;
-    const uint32_t exist = entriesFrom(f.param(2).address, f.function.length);
+    const uint32_t exist = entriesFrom(f, f.param(2).address);
     const ValueId entries = unsignedWord(f, 1, Type::I32);
     const ValueId limit = b.select(b.ltU(entries, b.i32(exist)), entries, b.i32(exist));
     const ValueId searched = f.load(f.dataType(), f.param(3).address);
@@ -129,22 +138,29 @@ void lowerSearch(Lowering& f) {
   });
 }
 
-// Conditions RW, RST, ACT. Indices below the number of entries are valid (P36), if the entries exist.
+// Conditions RW, RST, ACT. Indices below the number of entries are valid (P36), if the entries exist. A format may
+// count several entries, which are moved one after the other.
 void lowerIndexedMove(Lowering& f) {
   f.resettable([&] {
     ir::RungBuilder& b = f.b;
-    const network::Address& table = f.param(2).address;
-    const network::Address& data = f.param(3).address;
+    const Address& table = f.param(2).address;
+    const uint32_t count = f.function.count;
+    const uint32_t entries = entriesFrom(f, table);
     const ValueId index = unsignedWord(f, 4, Type::I32);
-    const ValueId exists = b.ltU(index, b.i32(entriesFrom(table, f.function.length)));
-    const ValueId legal = b.and_(b.ltU(index, unsignedWord(f, 1, Type::I32)), exists);
+    const ValueId exists = b.ltU(index, b.i32(entries < count ? 0 : entries - count + 1));
+    const ValueId last = count == 1 ? index : b.add(index, b.i32(count - 1)); // in the area, so it does not wrap
+    const ValueId legal = b.and_(b.ltU(last, unsignedWord(f, 1, Type::I32)), exists);
     const ValueId write = f.condition(0);
-    f.b.when(b.and_(legal, write),
-             [&] { b.storeAt(tableWindow(f, table), byteIndex(f, index), f.load(f.dataType(), data)); });
-    f.b.when(b.and_(legal, b.not_(write)),
-             [&] { f.store(data, b.loadAt(f.dataType(), tableWindow(f, table), byteIndex(f, index))); });
+    const auto data = [&](uint32_t i) { return plus(f.param(3).address, i * f.function.length); };
+    const auto place = [&](uint32_t i) { return byteIndex(f, i == 0 ? index : b.add(index, b.i32(i))); };
+    f.b.when(b.and_(legal, write), [&] {
+      for (uint32_t i = 0; i < count; ++i) b.storeAt(tableWindow(f, table), place(i), f.load(f.dataType(), data(i)));
+    });
+    f.b.when(b.and_(legal, b.not_(write)), [&] {
+      for (uint32_t i = 0; i < count; ++i) f.store(data(i), b.loadAt(f.dataType(), tableWindow(f, table), place(i)));
+    });
     return b.not_(legal);
   });
 }
 
-} // namespace rung::frontend::gsk
+} // namespace rung::frontend::network

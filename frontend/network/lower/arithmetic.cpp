@@ -1,30 +1,22 @@
-// Arithmetic with the flags of R1000 (§6.5, §7.9, §7.12). It is computed in twice the width, where nothing overflows.
-#include "frontend/dialects/gsk/lower/lower.h"
+// Arithmetic with the flags of the first result register (§6.5, §7.9, §7.12). It is computed in twice the width, where
+// nothing overflows.
+#include "frontend/lower/operations.h"
+#include "frontend/network/lower/functions.h"
 
-namespace rung::frontend::gsk {
+namespace rung::frontend::network {
 namespace {
 
 using ir::Type;
 using ir::ValueId;
 
+// Offsets in the result registers.
+constexpr uint32_t kFlags = 0;
+constexpr uint32_t kRemainder = 2;
+
 Type doubled(const Lowering& f) { return ir::intOfBytes(2 * f.function.length); }
 
-// P22: bit 0 zero, bit 1 negative, bit 5 overflow; the whole byte is rewritten. An invalid id means 0.
-void storeFlags(Lowering& f, ValueId zero, ValueId negative, ValueId overflow) {
-  ir::RungBuilder& b = f.b;
-  ValueId byte = b.constant(Type::I8, 0);
-  const auto add = [&](ValueId flag, int64_t bit) {
-    if (flag.valid())
-      byte = b.or_(byte, b.select(flag, b.constant(Type::I8, int64_t{1} << bit), b.constant(Type::I8, 0)));
-  };
-  add(zero, 0);
-  add(negative, 1);
-  add(overflow, 5);
-  f.store({areas::kR, kResultFlags}, byte);
-}
-
 // Stores the low bytes of a result and the flags; returns W, the overflow (P38).
-ValueId storeResult(Lowering& f, const network::Address& address, ValueId wide) {
+ValueId storeResult(Lowering& f, const Address& address, ValueId wide) {
   ir::RungBuilder& b = f.b;
   const ValueId low = b.trunc(f.dataType(), wide);
   const ValueId overflow = b.ne(b.sextOrTrunc(doubled(f), low), wide);
@@ -37,6 +29,20 @@ ValueId storeResult(Lowering& f, const network::Address& address, ValueId wide) 
 ValueId wideOperand(Lowering& f, size_t i) { return f.b.sextOrTrunc(doubled(f), f.operand(i, f.dataType())); }
 
 } // namespace
+
+// P22: bit 0 zero, bit 1 negative, bit 5 overflow; the whole byte is rewritten. An invalid id means 0.
+void storeFlags(Lowering& f, ValueId zero, ValueId negative, ValueId overflow) {
+  ir::RungBuilder& b = f.b;
+  ValueId byte = b.constant(Type::I8, 0);
+  const auto add = [&](ValueId flag, int64_t bit) {
+    if (flag.valid())
+      byte = b.or_(byte, b.select(flag, b.constant(Type::I8, int64_t{1} << bit), b.constant(Type::I8, 0)));
+  };
+  add(zero, 0);
+  add(negative, 1);
+  add(overflow, 5);
+  f.store(f.result(kFlags), byte);
+}
 
 void lowerArithmetic(Lowering& f) {
   f.resettable([&] {
@@ -54,7 +60,7 @@ void lowerDivision(Lowering& f) {
     const auto divide = [&] {
       const ValueId remainder = b.trunc(f.dataType(), b.remS(a, divisor));
       const ValueId overflow = storeResult(f, f.param(3).address, b.divS(a, divisor));
-      f.store({areas::kR, kRemainder}, remainder);
+      f.store(f.result(kRemainder), remainder);
       return overflow;
     };
     return b.choose(b.ne(divisor, b.constant(doubled(f), 0)), divide, [&] { return b.bit(true); });
@@ -99,4 +105,4 @@ void lowerBcd(Lowering& f) {
   });
 }
 
-} // namespace rung::frontend::gsk
+} // namespace rung::frontend::network

@@ -1,18 +1,23 @@
-// Transfers, decoding, comparison, bit logic, shift and parity (§7.3, §7.7, §7.8, §7.10, §7.14, §7.15).
-#include "frontend/dialects/gsk/lower/lower.h"
+// Transfers, decoding, bit logic, shift and parity (§7.3, §7.7, §7.8, §7.14, §7.15).
+#include "frontend/lower/operations.h"
+#include "frontend/network/lower/functions.h"
 
-namespace rung::frontend::gsk {
+namespace rung::frontend::network {
 
 using ir::Type;
 using ir::ValueId;
 
-// Bit i is (code == first + i): 1 shifted left by code - first, which gives 0 if the difference is above 7.
+// Bit i is (code == first + i): 1 shifted left by code - first, which gives 0 if the difference is above 7; each
+// further byte of the result is eight codes on.
 void lowerDecode(Lowering& f) {
   ir::RungBuilder& b = f.b;
   const ValueId code = f.load(f.dataType(), f.param(1).address);
   const ValueId distance = b.zextOrTrunc(Type::I32, b.sub(code, b.constant(f.dataType(), f.param(2).value)));
-  const ValueId bits = b.shl(b.constant(Type::I8, 1), distance);
-  f.store(f.param(3).address, b.select(f.act(), bits, b.constant(Type::I8, 0)));
+  for (uint32_t byte = 0; byte < f.function.count; ++byte) {
+    const ValueId own = byte == 0 ? distance : b.sub(distance, b.i32(8 * byte));
+    const ValueId bits = b.shl(b.constant(Type::I8, 1), own);
+    f.store(plus(f.param(3).address, byte), b.select(f.act(), bits, b.constant(Type::I8, 0)));
+  }
 }
 
 void lowerMoveMasked(Lowering& f) {
@@ -54,7 +59,10 @@ void lowerMoveBlock(Lowering& f) {
 }
 
 void lowerNumber(Lowering& f) {
-  f.b.when(f.act(), [&] { f.store(f.param(2).address, f.b.constant(f.dataType(), f.param(1).value)); });
+  f.b.when(f.act(), [&] {
+    const ValueId value = f.b.constant(f.dataType(), f.param(1).value);
+    for (uint32_t i = 0; i < f.function.count; ++i) f.store(plus(f.param(2).address, i * f.function.length), value);
+  });
 }
 
 void lowerLogic(Lowering& f) {
@@ -92,19 +100,4 @@ void lowerParity(Lowering& f) {
   });
 }
 
-void lowerCompare(Lowering& f) {
-  f.b.when(f.act(), [&] {
-    ir::RungBuilder& b = f.b;
-    const ValueId benchmark = f.operand(1, f.dataType());
-    const ValueId data = f.load(f.dataType(), f.param(2).address);
-    const ValueId unequal = b.select(b.ltS(data, benchmark), b.constant(Type::I8, 2), b.constant(Type::I8, 4));
-    f.store(f.param(3).address, b.select(b.eq(benchmark, data), b.constant(Type::I8, 1), unequal));
-  });
-}
-
-void lowerCoincidence(Lowering& f) {
-  f.latchedOutput(f.act(), {},
-                  [&] { return f.b.eq(f.operand(1, f.dataType()), f.load(f.dataType(), f.param(2).address)); });
-}
-
-} // namespace rung::frontend::gsk
+} // namespace rung::frontend::network

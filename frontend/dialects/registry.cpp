@@ -2,6 +2,7 @@
 #include <array>
 
 #include "frontend/dialects/dialect.h"
+#include "frontend/dialects/fanuc/fanuc.h"
 #include "frontend/dialects/gsk/gsk.h"
 #include "frontend/dialects/nct/nct.h"
 #include "frontend/dialects/technol/technol.h"
@@ -11,7 +12,7 @@
 namespace rung::frontend {
 
 std::span<const Dialect* const> allDialects() {
-  static constexpr std::array<const Dialect*, 3> kAll = {&gsk::kGsk, &nct::kNct, &technol::kTechnol};
+  static constexpr std::array<const Dialect*, 4> kAll = {&fanuc::kFanuc, &gsk::kGsk, &nct::kNct, &technol::kTechnol};
   return kAll;
 }
 

@@ -1,0 +1,198 @@
+// The dialect's entry: reads all files, checks the program, lowers it.
+#include "frontend/dialects/fanuc/fanuc.h"
+
+#include <fmt/format.h>
+
+#include "frontend/dialects/fanuc/config.h"
+#include "frontend/dialects/fanuc/language.h"
+#include "frontend/dialects/fanuc/lower/lower.h"
+#include "frontend/dialects/fanuc/read/messages.h"
+#include "frontend/dialects/fanuc/read/parameters.h"
+#include "frontend/dialects/fanuc/read/signals.h"
+#include "frontend/dialects/fanuc/reference.h"
+#include "frontend/dialects/fanuc/rows/instructions.h"
+#include "frontend/network/check/analyse.h"
+#include "frontend/network/format.h"
+#include "frontend/network/read/reading.h"
+#include "ir/support/diag/gsk.h"
+#include "ir/support/diag/operand.h"
+#include "ir/support/diag/source.h"
+#include "ir/support/foreign_file.h"
+#include "ir/support/utf8.h"
+#include "rtlib/nc/fanuc/signals.h"
+#include "rtlib/text/letters.h"
+
+namespace rung::frontend::fanuc {
+namespace {
+
+constexpr std::string_view kExtensions[] = {".mne", ".mnc"};
+
+// Texts and comments of older files are in Latin-1 (F1).
+FileId readable(SourceManager& sources, FileId file) {
+  const std::string_view text = sources.text(file);
+  const bool isText = text.find('\0') == std::string_view::npos && !sources.hasEncoding(file);
+  if (!isText || findInvalidUtf8(text) == std::string_view::npos) return file;
+  std::string converted;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x80)
+      converted += c;
+    else
+      converted.append({static_cast<char>(0xC0 | byte >> 6), static_cast<char>(0x80 | (byte & 0x3F))});
+  }
+  return sources.addBuffer(std::string(sources.name(file)), std::move(converted));
+}
+
+std::vector<FileId> readable(SourceManager& sources, std::span<const FileId> files) {
+  std::vector<FileId> result;
+  for (const FileId file : files) result.push_back(readable(sources, file));
+  return result;
+}
+
+std::string upperCase(std::string_view name) { return text::upper(name); } // F4
+
+class FanucProgram : public frontend::CheckedProgram {
+public:
+  FanucProgram(SourceManager& sources, std::span<const FileId> files, const frontend::CompileOptions& options,
+               Diagnostics& diagnostics)
+      : files_(readable(sources, files)), options_(options),
+        context_{.language = languageOf(configuredPmc(options_, sources, files_, diagnostics)),
+                 .sources = sources,
+                 .diagnostics = diagnostics,
+                 .names = network::Names(upperCase)},
+        program_(context_.language) {}
+
+  void check() {
+    if (files_.empty()) return;
+    network::checkConfig(options_, pagesOf(pmcOf(context_.language)), nc::fanucConfigKeys(), context_.diagnostics);
+    if (!checkFiles()) return;
+    network::Reading reading(context_, program_);
+    for (const FileId file : files_) reading.add(file);
+    const bool understood = reading.read();
+    network::analyse(context_, program_, !understood);
+    checkCounters();
+    eachFunction([this](const network::Function& function) {
+      checkGroup(function);
+      checkDigits(function);
+    });
+    messages_ = readMessages(context_.language, context_.sources, files_, context_.diagnostics);
+    context_.analysis.settle();
+  }
+
+  const frontend::Analysis& analysis() const override { return context_.analysis; }
+
+  std::unique_ptr<ir::Module> build() override {
+    const size_t before = context_.diagnostics.errorCount();
+    std::unique_ptr<ir::Module> module = lowerProgram(program_, context_, files_, options_);
+    if (context_.diagnostics.errorCount() != before) return nullptr; // a slot is too short
+    for (const Message& message : messages_)
+      module->messages.push_back({message.bit + 1, fmt::format("{} {}", message.number, message.text)});
+    return module;
+  }
+
+private:
+  template <class Check>
+  void eachFunction(Check check) const {
+    for (const network::Unit& unit : program_.units)
+      for (const network::Network& network : unit.networks)
+        if (network.function.row != nullptr) check(network.function);
+  }
+  bool checkFiles();
+  void checkCounters();
+  void checkGroup(const network::Function& function);
+  void checkDigits(const network::Function& function);
+
+  const std::vector<FileId> files_;
+  const frontend::CompileOptions options_;
+  network::Context context_;
+  network::Program program_;
+  std::vector<Message> messages_;
+};
+
+// Reports files that are something else: LADDER-III's own form, a memory card, parameters of the control.
+bool FanucProgram::checkFiles() {
+  bool good = true;
+  for (const FileId file : files_)
+    if (const std::optional<std::string> foreign = foreignFile(context_.sources.text(file))) {
+      context_.diagnostics.report(diag::ForeignFile, context_.sources.range(file, 0, 0))
+          << context_.sources.name(file) << *foreign;
+      good = false;
+    }
+  return good;
+}
+
+// F17.
+void FanucProgram::checkCounters() {
+  for (const FileId file : files_) {
+    const std::optional<Word> data = systemParameter(context_.sources, file, kCounterData);
+    if (!data || !text::equalsIgnoringCase(data->text, "BCD")) continue;
+    eachFunction([&](const network::Function& function) {
+      if (function.row->info.group == "counters")
+        context_.diagnostics.report(diag::NotSupported, function.range).note(data->range, "the counters hold BCD")
+            << function.row->info.mnemonic;
+    });
+  }
+}
+
+// Four groups a path.
+void FanucProgram::checkGroup(const network::Function& function) {
+  if (function.row->info.mnemonic != "AXCTL") return;
+  if (function.params.empty() || function.params[0].bad) return;
+  const network::Param& group = function.params[0];
+  if (const int64_t number = group.value % 1000; number >= 1 && number <= 4) return;
+  context_.diagnostics.report(diag::ParameterOutOfRange, group.range)
+      << group.value << "1 to 4, with path - 1 in the thousands" << function.row->info.mnemonic;
+}
+
+// NNDD: the digit that is not compared is 0.
+void FanucProgram::checkDigits(const network::Function& function) {
+  if (function.row->info.mnemonic != "DEC") return;
+  if (function.params.size() < 2 || function.params[1].bad) return;
+  const network::Param& decoded = function.params[1];
+  const int64_t digits = decoded.value / 100, which = decoded.value % 100;
+  const bool isLow = which == 1 && digits < 10, isHigh = which == 10 && digits % 10 == 0;
+  if (isLow || isHigh || which == 11) return;
+  context_.diagnostics.report(diag::ParameterOutOfRange, decoded.range)
+      << decoded.value << "NNDD with DD = 01 (low digit, the other one 0 in NN), 10 (high) or 11 (both)"
+      << function.row->info.mnemonic;
+}
+
+std::unique_ptr<frontend::CheckedProgram> check(SourceManager& sources, std::span<const FileId> files,
+                                                const frontend::CompileOptions& options, Diagnostics& diagnostics) {
+  auto program = std::make_unique<FanucProgram>(sources, files, options, diagnostics);
+  program->check();
+  return program;
+}
+
+std::optional<std::string> format(SourceManager& sources, FileId file, Diagnostics& diagnostics) {
+  return network::format(languageOf(Pmc::MemB), sources, file, diagnostics);
+}
+
+// Basic commands have no lowering function of their own: the network is theirs.
+bool isBuilt(const frontend::InstructionInfo& info) {
+  const network::Row* row =
+      info.number < 0 ? nullptr : languageOf(Pmc::MemB).findFunction(static_cast<uint64_t>(info.number));
+  return row == nullptr || row->built;
+}
+
+constexpr std::string_view kShownSpaces[] = {"A"}; // requests of messages
+
+} // namespace
+
+const frontend::Dialect kFanuc = {
+    .name = "fanuc",
+    .title = "FANUC PMC",
+    .extensions = kExtensions,
+    .configKeys = nc::fanucConfigKeys(),
+    .instructions = instructionInfos(),
+    .signals = nc::fanucSignals,
+    .shownSpaces = kShownSpaces,
+    .isBuilt = isBuilt,
+    .findBox = findBox,
+    .check = &check,
+    .format = &format,
+    .reference = &addReference,
+    .explain = &explainWord,
+};
+
+} // namespace rung::frontend::fanuc

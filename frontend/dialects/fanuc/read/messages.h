@@ -1,0 +1,23 @@
+// The messages of a mnemonic file, section `%@4` (inventory §1.7, F7).
+#pragma once
+#include <vector>
+
+#include "frontend/network/language.h"
+#include "ir/core/module.h"
+#include "ir/support/diagnostics.h"
+
+namespace rung::frontend::fanuc {
+
+// A message: it is shown while its bit of A is 1.
+struct Message {
+  uint32_t bit = 0;    // 8 * byte + bit
+  uint32_t number = 0; // as the CNC shows it
+  std::string_view text;
+  SourceRange range; // of its line
+};
+
+// All messages of the files, in their order.
+std::vector<Message> readMessages(const network::Language& language, const SourceManager& sources,
+                                  std::span<const FileId> files, Diagnostics& diagnostics);
+
+} // namespace rung::frontend::fanuc

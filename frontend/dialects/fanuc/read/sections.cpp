@@ -1,0 +1,86 @@
+// See sections.h.
+#include "frontend/dialects/fanuc/read/sections.h"
+
+#include <algorithm>
+
+#include "ir/support/utf8.h"
+#include "rtlib/text/blanks.h"
+#include "rtlib/text/letters.h"
+
+namespace rung::frontend::fanuc {
+namespace {
+
+using Kind = Section::Kind;
+
+struct Code {
+  std::string_view text;
+  Kind kind;
+};
+// Sections with variable symbols have the same lines.
+constexpr Code kCodes[] = {
+    {"%@0", Kind::Parameters},    {"%@1", Kind::Title},     {"%@2", Kind::Symbols},    {"%@2-A", Kind::Symbols},
+    {"%@2-B", Kind::Symbols},     {"%@2-C", Kind::Symbols}, {"%@2-C2", Kind::Symbols}, {"%@2-D", Kind::Symbols},
+    {"%@2-E", Kind::SymbolTable}, {"%@3", Kind::Ladder},    {"%@3-D", Kind::Ladder},   {"%@4", Kind::Messages},
+    {"%@5", Kind::Modules},       {"%@7", Kind::Modules},
+};
+
+Kind kindOf(std::string_view line) {
+  const std::string_view code = line.substr(0, line.find_first_of("( \t"));
+  const auto* const found = std::ranges::find(kCodes, code, &Code::text);
+  return found == std::end(kCodes) ? Kind::Unknown : found->kind;
+}
+
+class SectionFinder {
+public:
+  void line(const SourceLine& line) {
+    const std::string_view text = text::trimmed(line.text);
+    if (text == "%") return end(line.number);
+    if (!text.starts_with("%@")) return;
+    end(line.number);
+    const std::string code = text::upper(text);
+    sawCode_ = true;
+    if (code.starts_with("%@A") || code.starts_with("%@E")) return;
+    const size_t at = static_cast<size_t>(text.data() - line.text.data());
+    sections_.push_back({.kind = kindOf(code),
+                         .code = text,
+                         .range = line.range(at, at + text.size()),
+                         .first = line.number + 1,
+                         .last = 0});
+    open_ = true;
+  }
+
+  std::vector<Section> take(uint32_t lines) {
+    end(lines + 1);
+    if (!sawCode_) sections_.push_back({.kind = Kind::Ladder, .first = 1, .last = lines + 1});
+    return std::move(sections_);
+  }
+
+private:
+  void end(uint32_t line) {
+    if (open_) sections_.back().last = line;
+    open_ = false;
+  }
+
+  std::vector<Section> sections_;
+  bool open_ = false;
+  bool sawCode_ = false;
+};
+
+} // namespace
+
+std::vector<Section> sectionsOf(const SourceManager& sources, FileId file) {
+  SectionFinder finder;
+  const uint32_t lines = sources.lineCount(file);
+  for (uint32_t number = 1; number <= lines; ++number) finder.line(lineOf(sources, file, number));
+  return finder.take(lines);
+}
+
+SourceLine lineOf(const SourceManager& sources, FileId file, uint32_t number) {
+  std::string_view text = sources.lineText(file, number);
+  const auto offset = static_cast<size_t>(text.data() - sources.text(file).data());
+  const size_t mark = number == 1 && text.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0;
+  text.remove_prefix(mark);
+  return {number, text, sources.position(file, offset + mark)};
+}
+
+} // namespace rung::frontend::fanuc

@@ -1,0 +1,32 @@
+// The sections of a mnemonic file (inventory §1.2): each begins with its code, `%@3`, and ends with a line that is `%`.
+#pragma once
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "frontend/syntax/word_lexer.h"
+#include "ir/support/source.h"
+
+namespace rung::frontend::fanuc {
+
+struct Section {
+  enum class Kind : uint8_t { Parameters, Title, Symbols, SymbolTable, Ladder, Messages, Modules, Unknown };
+  Kind kind = Kind::Unknown;
+  std::string_view code; // such as "%@2-C"
+  SourceRange range;     // of the line with the code
+  uint32_t first = 0;    // its lines, without those with its code and its end: first to last - 1
+  uint32_t last = 0;
+};
+
+// A file without any code is one section of ladder. The text before the first code is a comment.
+std::vector<Section> sectionsOf(const SourceManager& sources, FileId file);
+
+// A line of a file.
+SourceLine lineOf(const SourceManager& sources, FileId file, uint32_t number);
+// Calls take(line) for each line of a section.
+template <class Take>
+void eachLine(const SourceManager& sources, FileId file, const Section& section, Take take) {
+  for (uint32_t number = section.first; number < section.last; ++number) take(lineOf(sources, file, number));
+}
+
+} // namespace rung::frontend::fanuc

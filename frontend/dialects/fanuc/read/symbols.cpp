@@ -1,0 +1,151 @@
+// See symbols.h.
+#include "frontend/dialects/fanuc/read/symbols.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "frontend/network/address.h"
+#include "ir/support/diag/gsk.h"
+#include "rtlib/text/blanks.h"
+#include "rtlib/text/letters.h"
+#include "rtlib/text/number.h"
+
+namespace rung::frontend::fanuc {
+namespace {
+
+using network::Context;
+using network::UserName;
+
+// Reads what a symbol names: a bit, a byte, a subprogram or a label.
+bool readPlace(Context& context, std::string_view text, UserName& name) {
+  const char letter = text.empty() ? '\0' : text::upper(text[0]);
+  if (letter == 'P' || letter == 'L') {
+    const auto number = network::parseDigits(text.substr(1));
+    if (!number) return false;
+    name.kind = UserName::Kind::Numbered;
+    name.text = letter == 'P' ? "P" : "L";
+    name.value = static_cast<int64_t>(*number);
+    return true;
+  }
+  const auto split = network::splitAddress(context.language, text);
+  const bool isBit = split && split->hasPoint;
+  if (!split || (isBit && (split->bit.size() != 1 || split->bit[0] < '0' || split->bit[0] > '7'))) return false;
+  // Whether the control has the address shows where the symbol is used.
+  name.address = {split->area, static_cast<uint32_t>(std::min<uint64_t>(split->byte, UINT32_MAX)),
+                  isBit ? static_cast<uint8_t>(split->bit[0] - '0') : uint8_t{0}, isBit};
+  return true;
+}
+
+SourceRange rangeOf(const SourceLine& line, std::string_view part) {
+  const auto at = static_cast<size_t>(part.data() - line.text.data());
+  return line.range(at, at + part.size());
+}
+
+void addSymbol(Context& context, const SourceLine& line, std::string_view symbol, std::string_view place,
+               std::string_view comment) {
+  UserName name{.name = symbol, .declared = rangeOf(line, symbol), .comment = comment};
+  if (readPlace(context, place, name))
+    context.names.addListed(context.diagnostics, std::move(name));
+  else
+    context.diagnostics.report(diag::BadListedSymbol, rangeOf(line, place)) << place << "the address of a symbol";
+}
+
+// `address symbol`, in form C with a line `$1 '' 'comment'` after it.
+class PlainReader {
+public:
+  explicit PlainReader(Context& context) : context_(context) {}
+
+  void line(const SourceLine& line) {
+    const std::string_view text = text::trimmed(line.text);
+    if (text.empty() || text[0] == ';') return;
+    if (text[0] == '$') return comment(text);
+    flush();
+    const size_t blank = text.find_first_of(" \t");
+    if (blank == std::string_view::npos) {
+      context_.diagnostics.report(diag::BadListedSymbol, rangeOf(line, text)) << text << "an address and its symbol";
+      return;
+    }
+    place_ = text.substr(0, blank);
+    symbol_ = text::trimmed(text.substr(blank));
+    symbol_ = symbol_.substr(0, symbol_.find_first_of(" \t"));
+    line_ = line;
+  }
+  void flush() {
+    if (!symbol_.empty()) addSymbol(context_, line_, symbol_, place_, comment_);
+    symbol_ = comment_ = {};
+  }
+
+private:
+  // The first comment that is not empty, in single quotes.
+  void comment(std::string_view text) {
+    while (comment_.empty()) {
+      const size_t open = text.find('\'');
+      const size_t close = open == std::string_view::npos ? open : text.find('\'', open + 1);
+      if (close == std::string_view::npos) return;
+      comment_ = text::trimmed(text.substr(open + 1, close - open - 1));
+      text.remove_prefix(close + 1);
+    }
+  }
+
+  Context& context_;
+  SourceLine line_;
+  std::string_view place_, symbol_, comment_;
+};
+
+// The columns of a table, from its code: `(SYM=1 ADR=2 CM1=3)`; the numbers count from 1.
+struct Columns {
+  size_t symbol = 1, address = 2, comment = 3;
+};
+
+size_t columnNamed(std::string_view code, std::string_view name, size_t otherwise) {
+  const size_t at = code.find(name);
+  if (at == std::string_view::npos) return otherwise;
+  const std::string_view digits = code.substr(at + name.size());
+  const auto number = network::parseDigits(digits.substr(0, digits.find_first_not_of("0123456789")));
+  return number ? static_cast<size_t>(*number) : otherwise;
+}
+
+// The fields of a line, without the quotes of those that have them. (A quote inside a field is not known to be
+// written.)
+std::vector<std::string_view> fieldsOf(std::string_view text) {
+  std::vector<std::string_view> fields;
+  while (true) {
+    const bool quoted = text.starts_with('"');
+    const size_t close = quoted ? text.find('"', 1) : std::string_view::npos;
+    const size_t comma = text.find(',', close == std::string_view::npos ? 0 : close);
+    std::string_view field = text::trimmed(text.substr(0, comma));
+    if (field.size() >= 2 && field.front() == '"' && field.back() == '"') field = field.substr(1, field.size() - 2);
+    fields.push_back(field);
+    if (comma == std::string_view::npos) return fields;
+    text.remove_prefix(comma + 1);
+  }
+}
+
+void tableLine(Context& context, const Columns& columns, const SourceLine& line) {
+  const std::string_view text = text::trimmed(line.text);
+  if (text.empty() || text[0] == ';') return;
+  const std::vector<std::string_view> fields = fieldsOf(text);
+  const auto field = [&](size_t column) {
+    return column == 0 || column > fields.size() ? std::string_view() : fields[column - 1];
+  };
+  if (field(columns.symbol).empty() || field(columns.address).empty()) return; // a comment without the other one
+  addSymbol(context, line, field(columns.symbol), field(columns.address), field(columns.comment));
+}
+
+} // namespace
+
+void readSymbols(Context& context, FileId file, const Section& section) {
+  if (section.kind == Section::Kind::SymbolTable) {
+    const std::string code = text::upper(section.code);
+    const Columns columns{columnNamed(code, "SYM=", 1), columnNamed(code, "ADR=", 2), columnNamed(code, "CM1=", 3)};
+    return eachLine(context.sources, file, section, [&](const SourceLine& line) { tableLine(context, columns, line); });
+  }
+  PlainReader reader(context);
+  eachLine(context.sources, file, section, [&](const SourceLine& line) { reader.line(line); });
+  reader.flush();
+}
+
+} // namespace rung::frontend::fanuc

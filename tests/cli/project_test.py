@@ -165,7 +165,7 @@ class Discovery(Cli):
 
 class New(Cli):
     def test_each_dialect(self):
-        for dialect, drawn in (("nct", True), ("gsk", True), ("technol", False)):
+        for dialect, drawn in (("fanuc", False), ("nct", True), ("gsk", True), ("technol", False)):
             out, _ = self.rungc("new", dialect, f"my-{dialect}")
             self.assertIn(f"cd 'my-{dialect}' && rungc test", out)
             cwd = self.path / f"my-{dialect}"

@@ -13,7 +13,7 @@ sys.path.insert(0, str(ROOT / "tests" / "support"))
 from patience import patience
 
 HERE = Path(__file__).resolve().parent
-SCENARIOS = ("gsk", "nct", "technol")  # the folders that tests/scenarios/CMakeLists.txt runs
+SCENARIOS = ("fanuc", "gsk", "nct", "technol")  # the folders that tests/scenarios/CMakeLists.txt runs
 
 LAMP = "dialect nct\nmodule MAIN\n\nrung\n|--[0000.00]--(5100.00)\n"
 PROJECT = 'dialect = "nct"\nfiles = ["a.lad"]\n'

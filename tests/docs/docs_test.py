@@ -54,7 +54,7 @@ def shown(path):
 
 class Docs(unittest.TestCase):
     def test_reference_is_what_the_tables_say(self):
-        for page in ("gsk", "nct", "technol", "diagnostics", "ir"):
+        for page in ("fanuc", "gsk", "nct", "technol", "diagnostics", "ir"):
             text = subprocess.run([RUNGC, "doc", page], capture_output=True, check=True).stdout.decode()
             path = ROOT / "docs" / "reference" / f"{page}.md"
             self.assertTrue(path.exists() and path.read_text() == text, f"{shown(path)} is stale: run tests/update")

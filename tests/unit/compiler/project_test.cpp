@@ -105,7 +105,7 @@ TEST_F(ProjectFile, ReportsEveryMistakeWithItsPlace) {
                           "3:34 project-value", "4:11 project-value", "5:6 project-value", "6:14 missing-project-file",
                           "8:11 project-value", "9:6 project-value"));
   EXPECT_THAT(text(), HasSubstr("did you mean dialect?"));
-  EXPECT_THAT(text(), HasSubstr("found \"siemens\"; 'dialect' takes \"nct\", \"gsk\" or \"technol\""));
+  EXPECT_THAT(text(), HasSubstr("found \"siemens\"; 'dialect' takes \"fanuc\", \"gsk\", \"nct\" or \"technol\""));
   EXPECT_THAT(text(), HasSubstr("gone.plc' is not a file"));
   EXPECT_THAT(text(), HasSubstr("found 7; 'files' takes a list of texts such as"));
   EXPECT_THAT(text(), HasSubstr("found true; 'machine' takes a text or a number"));

@@ -19,7 +19,7 @@ TEST(Reference, AllThatASearchListsIsExplainedWithoutLinesOfManuals) {
     if (!text) ADD_FAILURE() << entry.kind << " " << entry.name << " is not explained";
     if (text) EXPECT_FALSE(std::regex_search(*text, kLineOfManual)) << *text;
   }
-  for (const char* topic : {"gsk", "nct", "technol", "diagnostics", "faults", "config"})
+  for (const char* topic : {"fanuc", "gsk", "nct", "technol", "diagnostics", "faults", "config"})
     EXPECT_FALSE(std::regex_search(explainTopic(topic).value(), kLineOfManual)) << topic;
 }
 
@@ -35,7 +35,9 @@ TEST(Reference, TitlesAreWholeSentences) {
 }
 
 TEST(Reference, AKindOfOperandsByItsName) {
-  EXPECT_EQ(explain("format-a").value_or("").find("[gsk] kind of operands format-a\n"), 0u);
+  EXPECT_EQ(explain("format-a", frontend::findDialect("gsk")).value_or("").find("[gsk] kind of operands format-a\n"),
+            0u);
+  EXPECT_NE(explain("format-a").value_or("").find("[fanuc] kind of operands format-a\n"), std::string::npos);
   EXPECT_EQ(explain("MOV", frontend::findDialect("gsk")), std::nullopt);
   EXPECT_EQ(explain("MOV", frontend::findDialect("nct")).value_or("").find("[nct] "), 0u);
 }

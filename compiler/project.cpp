@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kDialects = "\"nct\", \"gsk\" or \"technol\"";
+constexpr std::string_view kDialects = "\"fanuc\", \"gsk\", \"nct\" or \"technol\"";
 constexpr std::string_view kFiles = "a list of texts such as [\"main.lad\", \"io.lad\"]";
 constexpr std::string_view kInclude = "a list of texts such as [\"../common\"]";
 constexpr std::string_view kScenarios = "a list of texts such as [\"*.scn\"]";
@@ -239,7 +239,7 @@ private:
 
 const Reader::Key Reader::kKeys[] = {
     {"name", false, "a name without a folder", "name = \"mill\"", &Reader::takeName},
-    {"dialect", true, kDialects, "dialect = \"nct\", \"gsk\" or \"technol\"", &Reader::takeDialect},
+    {"dialect", true, kDialects, "dialect = \"gsk\"", &Reader::takeDialect},
     {"files", true, kFiles, "files = [\"main.lad\", \"io.lad\"]", &Reader::takeFiles},
     {"encoding", false, "the name of an encoding, such as \"gb18030\"", "encoding = \"gb18030\"",
      &Reader::takeEncoding},

@@ -173,7 +173,8 @@ void addDiff(CommandLine& app, int& status) {
   auto options = std::make_shared<DiffOptions>();
   command.option("OLD", options->before, "A source file, or the folder of a project").required();
   command.option("NEW", options->after, "The newer version, in the same form").required();
-  command.option("--dialect", options->common.dialect, "nct, gsk or technol; needed if the files do not name it");
+  command.option("--dialect", options->common.dialect,
+                 "fanuc, gsk, nct or technol; needed if the files do not name it");
   command.option("--config", options->common.config, "KEY=VALUE of the dialect's configuration; may be repeated")
       .oneValue();
   command.option("--format", options->format, "Format of the report").oneOf({"text", "json"}).showDefault();

@@ -105,7 +105,7 @@ void addExplain(CommandLine& app, int& status) {
 void addDoc(CommandLine& app, int& status) {
   Command command = app.add("doc", "Print a page of the reference as Markdown");
   auto page = std::make_shared<std::string>();
-  command.option("PAGE", *page, "gsk, nct, technol, diagnostics or ir").required();
+  command.option("PAGE", *page, "fanuc, gsk, nct, technol, diagnostics or ir").required();
   command.onRun([page, &status] {
     if (*page == "diagnostics")
       std::cout << compiler::diagnosticReference();
@@ -114,7 +114,8 @@ void addDoc(CommandLine& app, int& status) {
     else if (const frontend::Dialect* dialect = frontend::findDialect(*page))
       std::cout << compiler::dialectReference(*dialect);
     else {
-      fmt::print(stderr, "rungc: unknown page '{}'; the pages are gsk, nct, technol, diagnostics and ir\n", *page);
+      fmt::print(stderr, "rungc: unknown page '{}'; the pages are fanuc, gsk, nct, technol, diagnostics and ir\n",
+                 *page);
       status = kUsage;
     }
   });

@@ -140,7 +140,8 @@ void addFormat(CommandLine& app, int& status) {
   Option check = command.flag("--check", options->check,
                               "Write nothing, list the files that would change; exit status 1 if there are any");
   command.flag("--stdout", options->toOutput, "Write to standard output instead of the file").excludes(check);
-  command.option("--dialect", options->source.dialect, "nct, gsk or technol; needed if the file does not name it");
+  command.option("--dialect", options->source.dialect,
+                 "fanuc, gsk, nct or technol; needed if the file does not name it");
   command.flag("-q,--quiet", options->source.quiet, "Do not list the changed files");
   addColorOption(command, options->source.color, "Colours in diagnostics");
   command.onRun([options, &status] { status = run(*options); });

@@ -30,7 +30,7 @@ void addSourceOptions(Command command, SourceOptions& options, const std::string
   Option project = command.option("--project", options.projectFile, "Use this project file, or the one in this folder");
   command.flag("--no-project", options.noProject, "Use only the named files, not the project that they belong to")
       .excludes(project);
-  command.option("--dialect", options.dialect, "nct, gsk or technol; needed if the file does not name it");
+  command.option("--dialect", options.dialect, "fanuc, gsk, nct or technol; needed if the file does not name it");
   command.option("--config", options.config, "KEY=VALUE of the dialect's configuration; may be repeated").oneValue();
   command.flag("--strict", options.strict, "Treat warnings that the real control would reject as errors");
   command.flag("--json", options.json, json);

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <map>
 
+#include "frontend/dialects/fanuc/fanuc.h"
 #include "frontend/dialects/gsk/gsk.h"
 #include "frontend/dialects/gsk/language.h"
 #include "frontend/syntax/word_lexer.h"
+#include "ir/support/diag/source.h"
 #include "tools/report/cross_reference.h"
 
 namespace rung::view {
@@ -16,6 +18,11 @@ std::optional<frontend::network::LadderForm> laddersOf(const frontend::Dialect& 
                                                        std::span<const FileId> files, Diagnostics& diagnostics) {
   if (&dialect == &frontend::gsk::kGsk)
     return frontend::network::ladderForm(frontend::gsk::kLanguage, sources, files, diagnostics);
+  const auto isText = [&](FileId file) { return sources.name(file).ends_with(".lad"); };
+  if (&dialect == &frontend::fanuc::kFanuc && !std::ranges::all_of(files, isText)) {
+    diagnostics.report(diag::NoDrawing, sources.range(files[0], 0, 0)) << "FANUC in mnemonic files";
+    return std::nullopt;
+  }
   return frontend::network::LadderForm{{files.begin(), files.end()}, {}, {}};
 }
 

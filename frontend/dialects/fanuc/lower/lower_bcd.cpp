@@ -52,7 +52,7 @@ private:
 class Elements {
 public:
   Elements(Lowering& f, size_t table, ValueId four)
-      : f_(f), b_(f.b), four_(four), bytes_(f.room(f.param(table).address)),
+      : b_(f.b), four_(four), bytes_(f.room(f.param(table).address)),
         window_(f.window(f.param(table).address, bytes_, bytes_)), digits_(f, four) {}
 
   // As many as there are: of those given, what lies in the area.
@@ -76,7 +76,6 @@ public:
 private:
   ValueId byte(ValueId at) { return b_.zextOrTrunc(Type::I16, b_.loadAt(Type::I8, window_, at)); }
 
-  Lowering& f_;
   ir::RungBuilder& b_;
   ValueId four_;
   uint32_t bytes_;

@@ -48,7 +48,7 @@ private:
   FileId file_;
   Page page_;
   LineWords words_;
-  size_t numberWidth_ = 0; // width of the step numbers and the blank after them; 0 if there are none
+  size_t numberWidth_ = 0; // width of the step numbers and the blank after them; 0 without step numbers
 };
 
 void ListFormatter::findNumbers() {

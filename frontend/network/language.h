@@ -171,7 +171,7 @@ struct Language {
 
   constexpr std::string_view nameOf(Command command) const { return commands[static_cast<size_t>(command)]; }
   constexpr const AreaInfo& at(Area area) const { return areas[static_cast<size_t>(area)]; }
-  // Ignoring case; null if there is none, or it is not a function.
+  // Ignoring case; null for a word or number that is not that of a function.
   const Row* findFunction(std::string_view mnemonic) const;
   const Row* findFunction(uint64_t number) const;
   // By its name, ignoring case.
@@ -181,7 +181,7 @@ struct Language {
   const Row& endOf(uint32_t level) const;
   // The level that a Control::LevelEnd ends.
   uint32_t levelOf(const Row& end) const;
-  // The row that shapes the program in this way, other than the end of a level; null if there is none.
+  // The row that shapes the program in this way, other than the end of a level; null if the language has none.
   const Row* findRowOf(Control control) const;
   // The same, of a row that the language has.
   const Row& rowOf(Control control) const;

@@ -76,7 +76,7 @@ int64_t valueIn(const Request& request, uint32_t at, uint32_t bytes) {
                       : static_cast<int32_t>(value);
 }
 
-// Calls see(axis, index of the element) for the axes of the attribute. False: there is no such axis.
+// Calls see(axis, index of the element) for the axes of the attribute. False if the axis does not exist.
 template <class See>
 bool forAxes(const Request& request, const Machine& machine, See see) {
   const auto count = static_cast<int32_t>(machine.axes.count());

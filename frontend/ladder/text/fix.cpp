@@ -43,7 +43,7 @@ struct Change {
 };
 
 /// The change that replaces `range` by the word; in a drawing the wire on its right absorbs the difference in length.
-/// nullopt if there is no room.
+/// nullopt if the word does not fit.
 std::optional<Change> changeOf(const SourceManager& sources, SourceRange range, std::string_view word) {
   const std::string_view line = sources.lineText(range.begin);
   const std::string_view old = sources.text(range);

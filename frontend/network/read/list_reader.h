@@ -17,7 +17,7 @@ namespace rung::frontend::network {
 
 // Comments begin with ';', there are no quoted texts.
 inline constexpr WordRules kListRules = {.comment = ';', .quotes = "", .separators = ""};
-// Ignoring case; nullopt if there is none.
+// Ignoring case; nullopt for any other word.
 std::optional<Command> findCommand(const Language& language, std::string_view name);
 // The words after the step number.
 std::span<const Word> statementOf(const LineWords& line);

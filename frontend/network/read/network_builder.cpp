@@ -138,7 +138,7 @@ void NetworkBuilder::first(Contact type, const Word& operand, Place at) {
 void NetworkBuilder::further(Contact type, const Word& operand, Place at) {
   if (state_ != State::Logic) {
     begin(at);
-    stackError(at, fmt::format("{}; there is no value to push", beginsWith()));
+    stackError(at, fmt::format("{}; the stack is empty", beginsWith()));
   }
   contact(Logic::Load, type, operand, at);
 }

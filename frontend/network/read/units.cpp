@@ -46,13 +46,12 @@ const Row& UnitAssembler::lastEnd() const {
   return language_.endOf(level);
 }
 
-// What follows the last end that is needed, and is not ended as a level, is none.
+// An optional level begins with the first network after the level before it. If its end does not follow, the program
+// does not have the level, and these networks are outside of all units.
 void UnitAssembler::leaveOptional() {
   if (current_ == kNone || current_ == 0 || !open_.empty() || !language_.levels[current_].optional) return;
-  for (const Network& network : program_.units[current_].networks) {
-    if (!network.incomplete) stray_.push_back(network.range);
-    break;
-  }
+  const std::vector<Network>& networks = program_.units[current_].networks;
+  if (!networks.empty() && !networks.front().incomplete) stray_.push_back(networks.front().range);
   current_ = kNone;
 }
 

@@ -45,7 +45,7 @@ private:
   void nest(SourceRange inner);
   void closeAll();
   uint32_t levelCount() const { return static_cast<uint32_t>(language_.levels.size()); }
-  // The first level after `level` whose end was found; levelCount() if there is none.
+  // The first level after `level` whose end was found, otherwise levelCount().
   uint32_t nextEnded(uint32_t level) const;
   // The end after which subprograms must follow.
   const Row& lastEnd() const;

@@ -46,7 +46,7 @@ struct WindowFunction {
   uint32_t scale = 0;            // data = value x scale; 0: no section describes the data
   bool wholeOnly = false;        // written data must be a multiple of the scale
   uint16_t listLine = 0;         // in Table 5-49
-  std::string_view section = {}; // of Part II; "" if there is none
+  std::string_view section = {}; // of Part II; "" if the manual has none
   uint16_t line = 0;             // of the section
 };
 

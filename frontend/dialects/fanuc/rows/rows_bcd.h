@@ -54,7 +54,7 @@ inline constexpr Row kBcdRows[] = {
                                      &lowerBcdTable)),
                 7, "COD", "code conversion by a table, BCD", "6.5, medium",
                 "result := row `index` of the table that follows, the first being number 0; rows are numbers of two "
-                "digits, with BYT=1 of four. W1=1 when there is no such row.",
+                "digits, with BYT=1 of four. W1=1 when the index is past the last row.",
                 "RD R0.0\nRD.STK R0.1\nRD.STK X9.0\nSUB 7\n2\nD10\nD11\n10\n20\nWRT Y9.0");
       row.capacityAt = 0;
       row.mostRow = 9999;

@@ -62,7 +62,8 @@ inline constexpr Row kDataRows[] = {
                              {kFormat, number("rows", 1, 256), in("index", kinds::kByte), out("result", kinds::kData)},
                              &network::lowerCodeTable)),
         27, "CODB", "code conversion by a table", "6.5, high",
-        "result := row `index` of the table that follows, the first being number 0. W1=1 when there is no such row.",
+        "result := row `index` of the table that follows, the first being number 0. W1=1 when the index is past the "
+        "last row.",
         "RD R0.0\nRD.STK X9.0\nSUB 27\n1\n2\nD10\nD11\n10\n20\nWRT Y9.0"),
     rowOf(
         withOutput("conversion",

@@ -41,9 +41,9 @@ ir::Window machinePositions(Lowering& f) {
 
 // A block with the axis number in one byte, then limits of 4 bytes (man. l.3437-3447; P56).
 struct Limits {
-  ValueId position;            // 0 if there is no such axis
+  ValueId position;            // 0 for an axis that does not exist
   std::vector<ValueId> values; // signed, in 0.001 mm
-  ValueId result;              // bit 0: no such axis, bit 1: limits not ascending (P55)
+  ValueId result;              // bit 0: the axis does not exist, bit 1: limits not ascending (P55)
   ValueId good;
 };
 

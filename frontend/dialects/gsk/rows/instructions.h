@@ -12,7 +12,7 @@ using Row = network::LoweredRow;
 using network::LowerFn;
 
 std::span<const Row> allRows();
-// The data of a box's row without its lowering; null if there is none.
+// The data of a box's row without its lowering; null for any other word.
 const frontend::InstructionInfo* findBox(std::string_view mnemonic);
 
 // Pointers to all rows.

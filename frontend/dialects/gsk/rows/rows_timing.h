@@ -100,7 +100,7 @@ inline constexpr Row kTimingRows[] = {
                .stateful = true,
                .ref = "5.10, l.1509",
                .doc = "result := row `index` of the table that follows as TABLE rows, the first being number 0. OUT=1 "
-                      "when there is no such row (P32).",
+                      "when the index is past the last row (P32).",
                .example = "LD R0.0\nLD X9.0\nFUNC 9\nPRM 1\nPRM 2\nPRM D10\nPRM D11\nTABLE 10\nTABLE 20\nOUT Y9.0"},
       .hasTable = true},
      &lowerCodeTable},

@@ -40,8 +40,8 @@ frontend::Edge edgeOf(const Lowering& box) { return box.edge == '@' ? kRising : 
 
 constexpr int64_t kNoAddress = 0xFFFFFFFF; // no bit has this address
 
-// Edge of a contact with a computed address. The stored value belongs to the address it was read from: when the address
-// changes there is no edge. Before the first evaluation the slot has no address and the value is 0.
+// Edge of a contact with a computed address. The stored value belongs to the address it was read from: a change of
+// the address is not an edge. Before the first evaluation the slot has no address and the value is 0.
 ValueId movingPulse(Lowering& box, const Place& place, ValueId value) {
   RungBuilder& b = box.b;
   const SlotId addressSlot = box.slots.make("address", Type::I32, kNoAddress);

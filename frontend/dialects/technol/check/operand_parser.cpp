@@ -359,7 +359,7 @@ bool OperandParser::noWord(std::string_view words, const OperandInfo& info, std:
 
 namespace {
 
-// For TEXT+BX or TEXT+2+BX: stores the tokens without `+BX` in `plain`. False if there is no index.
+// For TEXT+BX or TEXT+2+BX: stores the tokens without `+BX` in `plain`. False without an index.
 bool withoutIndex(std::span<const Token> tokens, std::vector<Token>& plain) {
   const auto isBx = [&](size_t i) {
     return i + 1 < tokens.size() && tokens[i].is('+') && text::equalsIgnoringCase(tokens[i + 1].text, "BX") &&

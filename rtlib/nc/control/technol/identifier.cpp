@@ -11,7 +11,7 @@
 namespace rung::nc::technol {
 namespace {
 
-// The digits of an index after a '[', without leading zeros ("" for zero); nothing if there is no index.
+// The digits of an index after a '[', without leading zeros ("" for zero); nothing without an index.
 std::optional<std::string_view> digitsOfIndex(std::string_view rest) {
   size_t end = 0;
   while (end < rest.size() && text::isDigit(rest[end])) ++end;

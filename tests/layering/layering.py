@@ -49,7 +49,7 @@ LAYERS = {
        for folder in ("compile", "control", "rung-run", "rung-hal")},
     "machine/rung-compile": ("machine/compile", "compiler", "frontend", "codegen", "ir", "rtlib"),
     "machine/rungctl": ("machine", "machine/rung-compile/collect.h", "rtlib"),
-    "tools/imported": ("ir/support", "rtlib/text"),
+    "tools/imported": ("ir/support", "rtlib/nc/pmc/slot.h", "rtlib/text"),
     "tools/report": ("compiler", "frontend", "codegen", "ir", "rtlib"),  # what drives programs is in tools/scenario
 }
 FREE = ("tests", "examples")  # may include everything, but nobody includes them

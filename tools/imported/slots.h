@@ -5,9 +5,11 @@
 
 #include <fmt/format.h>
 
+#include "rtlib/nc/pmc/slot.h"
+
 namespace rung::imported {
 
-inline constexpr int64_t kSlotUs = 8000; // Level 1 runs once in a slot
+using nc::pmc::kSlotUs;
 
 // The slots that last at least so long; `us` is 0 or more.
 constexpr int64_t slotsOf(int64_t us) { return (us + kSlotUs - 1) / kSlotUs; }

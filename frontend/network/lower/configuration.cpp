@@ -11,6 +11,7 @@
 #include "ir/support/diag/gsk.h"
 #include "ir/support/diag/operand.h"
 #include "rtlib/nc/config_key.h"
+#include "rtlib/nc/pmc/slot.h"
 #include "rtlib/text/number.h"
 
 namespace rung::frontend::network {
@@ -71,7 +72,7 @@ std::optional<uint64_t> periodOf(const frontend::CompileOptions& options) {
 std::optional<uint32_t> partsOf(const frontend::CompileOptions& options) {
   const auto period = periodOf(options);
   if (!period) return std::nullopt;
-  return static_cast<uint32_t>(*period / kSlotUs);
+  return static_cast<uint32_t>(*period / nc::pmc::kSlotUs);
 }
 
 // The number of steps in one slot of 8 ms, including level 1, if given: n follows (man. l.434-444).
@@ -96,10 +97,10 @@ void reportLongRungs(ModuleLowering& lowering, const LevelState& level2, const s
 void checkConfig(const frontend::CompileOptions& options, const PresetPages& pages, std::span<const nc::ConfigKey> keys,
                  Diagnostics& diagnostics) {
   if (const auto period = periodOf(options);
-      period && (*period == 0 || *period % kSlotUs != 0 || *period / kSlotUs > kMaxParts))
+      period && (*period == 0 || *period % nc::pmc::kSlotUs != 0 || *period / nc::pmc::kSlotUs > kMaxParts))
     diagnostics.report(diag::ConstantOutOfRange, options.placeOf("period_us"))
         << fmt::format("period_us {}", options.config.at("period_us"))
-        << fmt::format("multiples of {} up to {}", kSlotUs, kSlotUs * kMaxParts);
+        << fmt::format("multiples of {} up to {}", nc::pmc::kSlotUs, nc::pmc::kSlotUs * kMaxParts);
   if (const auto steps = options.config.find(kSlotSteps); steps != options.config.end()) {
     const nc::ConfigKey& row = *nc::findConfigKey(keys, kSlotSteps);
     if (!nc::wrongValue(row, kSlotSteps, steps->second).empty())
@@ -144,7 +145,8 @@ uint32_t partsOfLevel2(ModuleLowering& lowering, const frontend::CompileOptions&
     return needed;
   else if (needed > *given)
     diagnostics.report(diag::PeriodTooShort)
-        << *given * kSlotUs / 1000 << level1 + ir::longestPart(pieces, *given) << *slotSteps << needed * kSlotUs / 1000;
+        << *given * nc::pmc::kSlotUs / 1000 << level1 + ir::longestPart(pieces, *given) << *slotSteps
+        << needed * nc::pmc::kSlotUs / 1000;
   return parts;
 }
 

@@ -11,9 +11,6 @@
 
 namespace rung::frontend::network {
 
-// In every slot level 1 runs, followed by one part of level 2 (P3).
-inline constexpr uint32_t kSlotUs = 8000;
-
 // What the timer and counter pages of a control have.
 struct PresetPages {
   uint64_t timers = 0; // their numbers begin with 1

@@ -4,6 +4,7 @@
 #include "frontend/network/lower/functions.h"
 #include "frontend/network/lower/lower_module.h"
 #include "rtlib/nc/faults.h"
+#include "rtlib/nc/pmc/slot.h"
 
 namespace rung::frontend::fanuc {
 namespace {
@@ -85,7 +86,7 @@ void writeClocks(network::Lowering& f, const Address& system) {
 network::Execution executionOf(const network::Program& program, Pmc pmc) {
   const Address system = systemArea(pmc);
   const SystemUse use(program, pmc);
-  network::Execution execution{.slotUs = network::kSlotUs,
+  network::Execution execution{.slotUs = nc::pmc::kSlotUs,
                                .budget = 10'000'000,
                                .overrunFault = nc::kPmcDeadLoop,
                                .results = system,

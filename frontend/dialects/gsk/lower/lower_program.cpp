@@ -3,11 +3,12 @@
 #include "frontend/dialects/gsk/lower/lower.h"
 #include "frontend/network/lower/lower_module.h"
 #include "rtlib/nc/faults.h"
+#include "rtlib/nc/pmc/slot.h"
 
 namespace rung::frontend::gsk {
 namespace {
 
-const network::Execution kExecution{.slotUs = network::kSlotUs,
+const network::Execution kExecution{.slotUs = nc::pmc::kSlotUs,
                                     .budget = 1'000'000, // P6
                                     .overrunFault = nc::kPmcDeadLoop,
                                     .results = {areas::kR, kResultFlags},

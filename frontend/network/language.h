@@ -41,20 +41,32 @@ enum class Control : uint8_t {
 constexpr bool isEnd(Control control) { return control == Control::LevelEnd || control == Control::Spe; }
 
 struct Context;
+struct Function;
 struct Language;
 class UnitAssembler;
+
+// An index in Language::areas.
+enum class Area : uint8_t {};
 
 struct Row {
   frontend::InstructionInfo info;
   Control control = Control::Plain;
   // A number of this class that is used twice in a program gives a warning.
   enum class Numbers : uint8_t { Free, Timer, Counter, Edge } numbers = Numbers::Free;
+  // The memory of its numbers, if a control has as many of them as its area has room for.
+  struct Places {
+    Area area{};
+    uint32_t first = 0; // byte
+    uint32_t bytes = 0; // of each number; 0: the numbers have no memory in an area
+  } places;
   bool ignoresCondition = false; // one value before it is accepted, and has no effect
   bool hasTable = false;
   int64_t mostRow = -1;     // the highest number of such a row, the lowest is 0; -1: what fits the format
   uint8_t capacityAt = 1;   // of a row with a table: the parameter that is the number of its rows, 0 for 100
   uint32_t recordBytes = 0; // for an operand of kind Record
   bool built = true;        // otherwise it is known, and refused by name
+  // Reports operands that are wrong although their kinds and ranges are right; may be null.
+  void (*check)(const Function& function, Diagnostics& diagnostics) = nullptr;
 };
 
 // The statements of a list (P12). Declarations are allowed in lists as in ladder text, for conversions.
@@ -73,9 +85,6 @@ constexpr bool isClosed(Command contact) {
 }
 constexpr bool isCoil(Command command) { return command >= Command::Out && command <= Command::Reset; }
 constexpr bool isDeclaration(Command command) { return command == Command::Symbol || command == Command::Const; }
-
-// An index in Language::areas.
-enum class Area : uint8_t {};
 
 enum class AreaUse : uint8_t { Input, Output, Memory };
 
@@ -161,7 +170,8 @@ struct Language {
   uint32_t maxCallDepth = 0;
   ladder::FindBox findBox = nullptr;
   std::span<const frontend::ForeignWord> foreign; // commands and functions of other languages
-  // The highest number of a timer, a counter, an edge, a label or a subprogram of this row; null: that of the row.
+  // The highest number of a timer, a counter, an edge, a label or a subprogram of this row, if the row has no places;
+  // null: that of the row.
   int64_t (*mostNumber)(const Language& language, const Row& row) = nullptr;
   std::string_view nameMarks{}; // characters of names beside letters, digits and _; if any, a name may begin with all
   bool namesIgnoreCase = false;

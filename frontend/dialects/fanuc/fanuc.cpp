@@ -71,10 +71,6 @@ public:
     const bool understood = reading.read();
     network::analyse(context_, program_, !understood);
     checkCounters();
-    eachFunction([this](const network::Function& function) {
-      checkGroup(function);
-      checkDigits(function);
-    });
     messages_ = readMessages(context_.language, context_.sources, files_, context_.diagnostics);
     context_.analysis.settle();
   }
@@ -91,16 +87,8 @@ public:
   }
 
 private:
-  template <class Check>
-  void eachFunction(Check check) const {
-    for (const network::Unit& unit : program_.units)
-      for (const network::Network& network : unit.networks)
-        if (network.function.row != nullptr) check(network.function);
-  }
   bool checkFiles();
   void checkCounters();
-  void checkGroup(const network::Function& function);
-  void checkDigits(const network::Function& function);
 
   const std::vector<FileId> files_;
   const frontend::CompileOptions options_;
@@ -126,35 +114,13 @@ void FanucProgram::checkCounters() {
   for (const FileId file : files_) {
     const std::optional<Word> data = systemParameter(context_.sources, file, kCounterData);
     if (!data || !text::equalsIgnoringCase(data->text, "BCD")) continue;
-    eachFunction([&](const network::Function& function) {
-      if (function.row->info.group == "counters")
-        context_.diagnostics.report(diag::NotSupported, function.range).note(data->range, "the counters hold BCD")
-            << function.row->info.mnemonic;
-    });
+    for (const network::Unit& unit : program_.units)
+      for (const network::Network& network : unit.networks)
+        if (const network::Row* row = network.function.row; row != nullptr && loweredRow(*row).lower == &lowerCounter)
+          context_.diagnostics.report(diag::NotSupported, network.function.range)
+                  .note(data->range, "the counters hold BCD")
+              << row->info.mnemonic;
   }
-}
-
-// Four groups a path.
-void FanucProgram::checkGroup(const network::Function& function) {
-  if (function.row->info.mnemonic != "AXCTL") return;
-  if (function.params.empty() || function.params[0].bad) return;
-  const network::Param& group = function.params[0];
-  if (const int64_t number = group.value % 1000; number >= 1 && number <= 4) return;
-  context_.diagnostics.report(diag::ParameterOutOfRange, group.range)
-      << group.value << "1 to 4, with path - 1 in the thousands" << function.row->info.mnemonic;
-}
-
-// NNDD: the digit that is not compared is 0.
-void FanucProgram::checkDigits(const network::Function& function) {
-  if (function.row->info.mnemonic != "DEC") return;
-  if (function.params.size() < 2 || function.params[1].bad) return;
-  const network::Param& decoded = function.params[1];
-  const int64_t digits = decoded.value / 100, which = decoded.value % 100;
-  const bool isLow = which == 1 && digits < 10, isHigh = which == 10 && digits % 10 == 0;
-  if (isLow || isHigh || which == 11) return;
-  context_.diagnostics.report(diag::ParameterOutOfRange, decoded.range)
-      << decoded.value << "NNDD with DD = 01 (low digit, the other one 0 in NN), 10 (high) or 11 (both)"
-      << function.row->info.mnemonic;
 }
 
 std::unique_ptr<frontend::CheckedProgram> check(SourceManager& sources, std::span<const FileId> files,

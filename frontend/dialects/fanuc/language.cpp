@@ -40,13 +40,8 @@ constexpr network::Level kLevels[] = {
      .optional = true},
 };
 
-// Numbers of variable timers and counters are as many as their areas hold (§3.3).
 int64_t mostNumber(const network::Language& language, const Row& row) {
   const PmcLimits& limits = limitsOf(pmcOf(language));
-  const std::string_view mnemonic = row.info.mnemonic;
-  if (mnemonic == "TMR") return language.at(areas::kT).room(0) / 2;
-  if (mnemonic == "CTR") return language.at(areas::kC).room(0) / 4;
-  if (mnemonic == "CTRB") return language.at(areas::kC).room(kFixedCounters) / 2;
   if (row.numbers == Row::Numbers::Timer) return limits.timers;
   if (row.numbers == Row::Numbers::Edge) return limits.edges;
   if (row.control == Control::Call || row.control == Control::CallU || row.control == Control::Sp)

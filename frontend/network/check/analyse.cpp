@@ -147,6 +147,7 @@ public:
     reportUnused();
     if (!diagnostics_.hasErrors()) checkCoils(context_, program_, order_); // errors may hide reads of a bit
     checkNumbers();
+    checkOperands();
   }
 
 private:
@@ -163,6 +164,7 @@ private:
   void resolveLeave(Network& network, const Label& label);
   void reportUnused();
   void checkNumbers();
+  void checkOperands();
 
   template <class F>
   void eachNetwork(F f) {
@@ -359,6 +361,13 @@ void Analysis::checkNumbers() {
     if (number.value == 0) return; // the control's compiler gives it one of its own
     const auto [at, isNew] = seen.emplace(std::pair(family, number.value), number.range);
     if (!isNew) diagnostics_.report(code, number.range).note(at->second, "the first one is here") << number.value;
+  });
+}
+
+void Analysis::checkOperands() {
+  eachNetwork([&](uint32_t, uint32_t, Network& network) {
+    const Row* row = network.function.row;
+    if (row != nullptr && row->check != nullptr) row->check(network.function, diagnostics_);
   });
 }
 

@@ -87,10 +87,12 @@ uint32_t ParameterCheck::lengthOf(const OperandKind& kind) const {
 
 // The control may have fewer than the language.
 int64_t ParameterCheck::mostOf(const OperandInfo& info) const {
-  const auto most = context_.language.mostNumber;
-  const bool isFirst =
-      &info == function_.row->info.operands.all().data(); // only the first operand is a number of an instruction
-  return most == nullptr || !isFirst ? info.max : std::min(info.max, most(context_.language, *function_.row));
+  const Language& language = context_.language;
+  const Row& row = *function_.row;
+  if (&info != row.info.operands.all().data()) return info.max; // only the first operand is a number of an instruction
+  if (const auto& [area, first, bytes] = row.places; bytes != 0)
+    return std::min<int64_t>(info.max, language.at(area).room(first) / bytes);
+  return language.mostNumber == nullptr ? info.max : std::min(info.max, language.mostNumber(language, row));
 }
 
 // Checks a format: `1`, `2` or `4` with any leading zeros; a00n has exactly four digits (P20).

@@ -3,6 +3,7 @@
 #pragma once
 #include <string_view>
 
+#include "frontend/dialects/fanuc/check/operands.h"
 #include "frontend/dialects/fanuc/lower/lower.h"
 #include "frontend/dialects/fanuc/rows/instructions.h"
 #include "frontend/dialects/fanuc/rows/operand_kinds.h"
@@ -89,6 +90,15 @@ constexpr Row withOutput(std::string_view group, PinList pins, OperandList opera
 // The rows of a table follow the parameters, the number of rows is the second one.
 constexpr Row withTable(Row row) {
   row.hasTable = true;
+  return row;
+}
+constexpr Row withCheck(Row row, void (*check)(const network::Function& function, Diagnostics& diagnostics)) {
+  row.check = check;
+  return row;
+}
+// Numbers of variable timers and counters are as many as their areas hold (inventory §3.3).
+constexpr Row withPlaces(Row row, Row::Places places) {
+  row.places = places;
   return row;
 }
 // A function without an output: coils after it take ACT (inventory §5.2).

@@ -26,10 +26,11 @@ constexpr Row bcdCompareRow(int number, std::string_view mnemonic, std::string_v
 inline constexpr OperandInfo kElements = number("elements", 1, 9999, "number of elements");
 
 inline constexpr Row kBcdRows[] = {
-    rowOf(withOutput("decoding", {kAct},
-                     {in("code", kinds::kByte, "two BCD digits"),
-                      number("decoded", 1, 9911, "NNDD: NN the digits, DD 01 low, 10 high, 11 both")},
-                     &lowerBcdDecode),
+    rowOf(withCheck(withOutput("decoding", {kAct},
+                               {in("code", kinds::kByte, "two BCD digits"),
+                                number("decoded", 1, 9911, "NNDD: NN the digits, DD 01 low, 10 high, 11 both")},
+                               &lowerBcdDecode),
+                    &checkDecodedDigits),
           4, "DEC", "BCD decoding", "6.4, medium",
           "W1=1 when ACT=1 and the digits of the code that DD chooses are those of NN; the digit that is not compared "
           "is 0 in NN.",

@@ -22,7 +22,7 @@ constexpr Row axisShape() {
        record("control data", Access::Read, "8 bytes: +1 command, +2 data 1 (2 bytes), +4 data 2 (4 bytes)")},
       &lowerAxisControl);
   row.recordBytes = kAxisBlockBytes;
-  return row;
+  return withCheck(row, &checkAxisGroup);
 }
 
 inline constexpr Row kNcRows[] = {

@@ -26,7 +26,7 @@ inline constexpr OperandInfo kTimerNumber = number("number", 0, 1500, "0: number
 inline constexpr OperandInfo kPresetMs = number("preset", 0, 32'760'000, "milliseconds");
 
 inline constexpr Row kTimingRows[] = {
-    rowOf(timerShape({number("number", 1, 500)}, Row::Numbers::Timer), 3, "TMR",
+    rowOf(withPlaces(timerShape({number("number", 1, 500)}, Row::Numbers::Timer), {areas::kT, 0, 2}), 3, "TMR",
           "on-delay timer, set value in T (tmr.N)", "6.2, high",
           "W1 becomes 1 when ACT has been 1 for the set value, a word of T in units of the timer's accuracy: 48 ms for "
           "timers 1-8 and 8 ms from 9 on, unless the word in T9000 says 1 (1 ms), 2 (10 ms), 3 (100 ms), 4 (1 s) or 5 "
@@ -52,14 +52,15 @@ inline constexpr Row kTimingRows[] = {
           "W1 is 1 while ACT is 1, and for the preset after it has become 0.", "RD X9.0\nSUB 77\n1\n1000\nWRT Y9.0"),
 
     rowOf(
-        counterShape({number("number", 1, 300)}, Row::Numbers::Counter), 5, "CTR", "ring counter, preset in C (ctr.N)",
-        "6.3, high",
+        withPlaces(counterShape({number("number", 1, 300)}, Row::Numbers::Counter), {areas::kC, 0, 4}), 5, "CTR",
+        "ring counter, preset in C (ctr.N)", "6.3, high",
         "Counts rising edges of ACT. Up: from the start value (CN0) to the preset, the next pulse begins again. Down: "
         "from the preset to CN0. RST=1 sets the start value and W1=0. W1=1 when a count arrives at the end of its "
         "way. Preset and value are words from C4(n-1) on, binary (F17).",
         "RD R0.0\nRD.STK R0.1\nRD.STK R0.2\nRD.STK X9.0\nSUB 5\n1\nWRT Y9.0", kCounterPage),
-    rowOf(counterShape({number("number", 1, 300), number("preset", 0, 32767)}, Row::Numbers::Counter), 56, "CTRB",
-          "ring counter, preset in the program", "6.3, high",
+    rowOf(withPlaces(counterShape({number("number", 1, 300), number("preset", 0, 32767)}, Row::Numbers::Counter),
+                     {areas::kC, kFixedCounters, 2}),
+          56, "CTRB", "ring counter, preset in the program", "6.3, high",
           "As CTR, but the preset is part of the program, and the value is the word at C5000+2(n-1). Its numbers are a "
           "set of their own.",
           "RD R0.0\nRD.STK R0.1\nRD.STK R0.2\nRD.STK X9.0\nSUB 56\n1\n5\nWRT Y9.0", kCounterFixed),

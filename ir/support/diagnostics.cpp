@@ -11,10 +11,10 @@
 #include <fmt/format.h>
 
 #include "ir/support/check.h"
-#include "ir/support/diag/gsk.h"
 #include "ir/support/diag/ladder.h"
 #include "ir/support/diag/nct.h"
 #include "ir/support/diag/operand.h"
+#include "ir/support/diag/pmc.h"
 #include "ir/support/diag/project.h"
 #include "ir/support/diag/source.h"
 #include "ir/support/diag/structure.h"

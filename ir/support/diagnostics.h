@@ -28,7 +28,7 @@ enum class Diag : uint16_t {};
 
 namespace diag {
 /// In the order of allDiags().
-enum class Family : uint8_t { Source, Project, Ladder, Operand, Structure, Gsk, Nct, Technol };
+enum class Family : uint8_t { Source, Project, Ladder, Operand, Structure, Pmc, Nct, Technol };
 constexpr Diag codeOf(Family family, uint8_t line) {
   return static_cast<Diag>(static_cast<unsigned>(family) << 8 | line);
 }

@@ -3,8 +3,8 @@
 
 #include "frontend/dialects/fanuc/language.h"
 #include "frontend/dialects/fanuc/read/parameters.h"
-#include "ir/support/diag/gsk.h"
 #include "ir/support/diag/operand.h"
+#include "ir/support/diag/pmc.h"
 
 namespace rung::frontend::fanuc {
 

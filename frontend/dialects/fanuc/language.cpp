@@ -9,8 +9,8 @@
 #include "frontend/dialects/fanuc/rows/foreign_words.h"
 #include "frontend/dialects/fanuc/rows/instructions.h"
 #include "ir/support/check.h"
-#include "ir/support/diag/gsk.h"
 #include "ir/support/diag/operand.h"
+#include "ir/support/diag/pmc.h"
 #include "rtlib/nc/fanuc/signals.h"
 
 namespace rung::frontend::fanuc {

@@ -5,9 +5,9 @@
 
 #include "frontend/dialects/fanuc/areas.h"
 #include "frontend/dialects/fanuc/rows/instructions.h"
-#include "ir/support/diag/gsk.h"
 #include "ir/support/diag/nct.h"
 #include "ir/support/diag/operand.h"
+#include "ir/support/diag/pmc.h"
 #include "ir/support/diag/structure.h"
 
 namespace rung::frontend::fanuc {

@@ -10,8 +10,8 @@
 #include "frontend/network/check/analyse.h"
 #include "frontend/network/format.h"
 #include "frontend/network/read/reading.h"
-#include "ir/support/diag/gsk.h"
 #include "ir/support/diag/nct.h"
+#include "ir/support/diag/pmc.h"
 #include "rtlib/nc/gsk/signals.h"
 
 namespace rung::frontend::gsk {

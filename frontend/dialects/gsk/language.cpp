@@ -5,7 +5,7 @@
 #include "frontend/dialects/gsk/rows/foreign_words.h"
 #include "frontend/dialects/gsk/rows/instructions.h"
 #include "frontend/network/read/list_reader.h"
-#include "ir/support/diag/gsk.h"
+#include "ir/support/diag/pmc.h"
 #include "rtlib/nc/gsk/signals.h"
 
 namespace rung::frontend::gsk {

@@ -8,7 +8,7 @@
 
 #include "frontend/network/check/analyse.h"
 #include "frontend/sema/call_graph.h"
-#include "ir/support/diag/gsk.h"
+#include "ir/support/diag/pmc.h"
 #include "ir/support/diag/structure.h"
 
 namespace rung::frontend::network {

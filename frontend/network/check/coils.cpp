@@ -16,8 +16,8 @@
 #include <fmt/format.h>
 
 #include "frontend/network/check/analyse.h"
-#include "ir/support/diag/gsk.h"
 #include "ir/support/diag/nct.h"
+#include "ir/support/diag/pmc.h"
 
 namespace rung::frontend::network {
 namespace {

@@ -10,7 +10,7 @@
 #include "frontend/network/read/gaps.h"
 #include "frontend/network/read/reading.h"
 #include "ir/support/check.h"
-#include "ir/support/diag/gsk.h"
+#include "ir/support/diag/pmc.h"
 
 namespace rung::frontend::network {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "frontend/sema/foreign_word.h"
 #include "ir/core/parts.h"
-#include "ir/support/diag/gsk.h"
 #include "ir/support/diag/operand.h"
+#include "ir/support/diag/pmc.h"
 #include "rtlib/nc/config_key.h"
 #include "rtlib/nc/pmc/slot.h"
 #include "rtlib/text/number.h"

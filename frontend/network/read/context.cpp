@@ -8,8 +8,8 @@
 
 #include "frontend/ladder/text/fix.h"
 #include "frontend/network/read/list_reader.h"
-#include "ir/support/diag/gsk.h"
 #include "ir/support/diag/operand.h"
+#include "ir/support/diag/pmc.h"
 #include "rtlib/text/letters.h"
 #include "rtlib/text/number.h"
 #include "rtlib/text/similar.h"

@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "ir/support/diag/gsk.h"
 #include "ir/support/diag/operand.h"
+#include "ir/support/diag/pmc.h"
 #include "ir/support/diag/structure.h"
 
 namespace rung::frontend::network {

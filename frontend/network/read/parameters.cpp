@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include "frontend/network/read/network_builder.h"
-#include "ir/support/diag/gsk.h"
 #include "ir/support/diag/operand.h"
+#include "ir/support/diag/pmc.h"
 #include "rtlib/text/letters.h"
 
 namespace rung::frontend::network {

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "ir/support/diag/gsk.h"
+#include "ir/support/diag/pmc.h"
 #include "ir/support/diag/structure.h"
 
 namespace rung::frontend::network {

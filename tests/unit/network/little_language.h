@@ -7,7 +7,7 @@
 #include "frontend/network/lower/lower_function.h"
 #include "frontend/network/operand_kind.h"
 #include "frontend/network/read/list_reader.h"
-#include "ir/support/diag/gsk.h"
+#include "ir/support/diag/pmc.h"
 
 namespace rung::frontend::network::test {
 

@@ -1,7 +1,7 @@
 // The table of codes and the collecting of reports.
-#include "ir/support/diag/gsk.h"
 #include "ir/support/diag/ladder.h"
 #include "ir/support/diag/operand.h"
+#include "ir/support/diag/pmc.h"
 #include "ir/support/diag/structure.h"
 #include "ir/support/diag/technol.h"
 #include "ir/support/diagnostics.h"

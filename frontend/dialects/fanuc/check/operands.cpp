@@ -1,7 +1,7 @@
 // See operands.h.
 #include "frontend/dialects/fanuc/check/operands.h"
 
-#include "ir/support/diag/gsk.h"
+#include "ir/support/diag/pmc.h"
 
 namespace rung::frontend::fanuc {
 

@@ -10,8 +10,8 @@
 #include "frontend/dialects/fanuc/language.h"
 #include "frontend/dialects/fanuc/read/sections.h"
 #include "frontend/network/address.h"
-#include "ir/support/diag/gsk.h"
 #include "ir/support/diag/operand.h"
+#include "ir/support/diag/pmc.h"
 #include "rtlib/text/blanks.h"
 #include "rtlib/text/letters.h"
 

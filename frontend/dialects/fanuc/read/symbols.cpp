@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "frontend/network/address.h"
-#include "ir/support/diag/gsk.h"
+#include "ir/support/diag/pmc.h"
 #include "rtlib/text/blanks.h"
 #include "rtlib/text/letters.h"
 #include "rtlib/text/number.h"

@@ -1,7 +1,7 @@
 // The kinds of operands of the rows. A new kind is one descriptor here, and the rows that refer to it.
 #pragma once
 #include "frontend/network/operand_kind.h"
-#include "ir/support/diag/gsk.h"
+#include "ir/support/diag/pmc.h"
 
 namespace rung::frontend::fanuc {
 

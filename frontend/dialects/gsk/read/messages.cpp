@@ -11,9 +11,9 @@
 #include "frontend/dialects/gsk/areas.h"
 #include "frontend/dialects/gsk/language.h"
 #include "frontend/syntax/word_lexer.h"
-#include "ir/support/diag/gsk.h"
 #include "ir/support/diag/nct.h"
 #include "ir/support/diag/operand.h"
+#include "ir/support/diag/pmc.h"
 #include "ir/support/diag/source.h"
 
 namespace rung::frontend::gsk {

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "frontend/dialects/gsk/language.h"
-#include "ir/support/diag/gsk.h"
+#include "ir/support/diag/pmc.h"
 #include "rtlib/nc/gsk/signals.h"
 #include "rtlib/nc/signals.h"
 #include "rtlib/text/letters.h"

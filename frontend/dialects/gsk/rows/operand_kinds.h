@@ -2,7 +2,7 @@
 #pragma once
 #include "frontend/dialects/gsk/areas.h"
 #include "frontend/network/operand_kind.h"
-#include "ir/support/diag/gsk.h"
+#include "ir/support/diag/pmc.h"
 
 namespace rung::frontend::gsk {
 

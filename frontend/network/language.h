@@ -3,6 +3,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -144,11 +145,23 @@ struct Level {
   constexpr bool latchesInputs() const { return turn != Turn::EverySlot; }
 };
 
-// The reader and the formatter of a language's lists. Declarations apply to the whole program and are read from all
-// files first.
+// A list that its form has opened.
+class ListFile {
+public:
+  explicit ListFile(FileId file) : file_(file) {}
+  virtual ~ListFile() = default;
+  FileId file() const { return file_; }
+  // Declarations apply to the whole program and are read from all files first.
+  virtual void readDeclarations(Context& context) const = 0;
+  virtual void read(Context& context, UnitAssembler& units) const = 0;
+
+private:
+  FileId file_;
+};
+
+// The reader and the formatter of a language's lists.
 struct ListForm {
-  void (*readDeclarations)(Context& context, FileId file);
-  void (*read)(Context& context, FileId file, UnitAssembler& units);
+  std::shared_ptr<const ListFile> (*open)(const SourceManager& sources, FileId file);
   // A formatted list; nothing after errors, which are reported.
   std::optional<std::string> (*format)(const Language& language, SourceManager& sources, FileId file,
                                        Diagnostics& diagnostics);

@@ -8,15 +8,15 @@
 
 namespace rung::frontend::fanuc {
 
-Pmc configuredPmc(const frontend::CompileOptions& options, SourceManager& sources, std::span<const FileId> files,
+Pmc configuredPmc(const frontend::CompileOptions& options, const SourceManager& sources, const MnemonicFiles& files,
                   Diagnostics& diagnostics) {
   if (const auto at = options.config.find("pmc"); at != options.config.end()) {
     const std::optional<Pmc> pmc = pmcNamed(at->second);
     if (!pmc) diagnostics.report(diag::UnknownPmc, options.placeOf("pmc")) << at->second;
     return pmc.value_or(Pmc::MemB);
   }
-  for (const FileId file : files)
-    if (const auto text = systemParameter(sources, file, kPmcType)) {
+  for (const auto& file : files)
+    if (const auto text = systemParameter(sources, *file, kPmcType)) {
       const std::optional<Pmc> pmc = pmcNamed(text->text);
       if (!pmc) diagnostics.report(diag::UnknownPmc, text->range) << text->text;
       return pmc.value_or(Pmc::MemB);

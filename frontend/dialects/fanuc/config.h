@@ -4,13 +4,14 @@
 
 #include "frontend/dialects/dialect.h"
 #include "frontend/dialects/fanuc/areas.h"
+#include "frontend/dialects/fanuc/read/mnemonic.h"
 #include "frontend/network/lower/configuration.h"
 
 namespace rung::frontend::fanuc {
 
 // The type of `config pmc`, otherwise that which a section %@0 names, otherwise MEM-B (F11). A type that is not known
 // is reported.
-Pmc configuredPmc(const frontend::CompileOptions& options, SourceManager& sources, std::span<const FileId> files,
+Pmc configuredPmc(const frontend::CompileOptions& options, const SourceManager& sources, const MnemonicFiles& files,
                   Diagnostics& diagnostics);
 
 // Timers 1-8 count in 48 ms, the others in 8 ms (§6.2).

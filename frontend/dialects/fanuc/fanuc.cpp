@@ -49,14 +49,20 @@ std::vector<FileId> readable(SourceManager& sources, std::span<const FileId> fil
   return result;
 }
 
+MnemonicFiles opened(const SourceManager& sources, std::span<const FileId> files) {
+  MnemonicFiles result;
+  for (const FileId file : files) result.push_back(std::make_shared<MnemonicFile>(sources, file));
+  return result;
+}
+
 std::string upperCase(std::string_view name) { return text::upper(name); } // F4
 
 class FanucProgram : public frontend::CheckedProgram {
 public:
   FanucProgram(SourceManager& sources, std::span<const FileId> files, const frontend::CompileOptions& options,
                Diagnostics& diagnostics)
-      : files_(readable(sources, files)), options_(options),
-        context_{.language = languageOf(configuredPmc(options_, sources, files_, diagnostics)),
+      : files_(readable(sources, files)), mnemonics_(opened(sources, files_)), options_(options),
+        context_{.language = languageOf(configuredPmc(options_, sources, mnemonics_, diagnostics)),
                  .sources = sources,
                  .diagnostics = diagnostics,
                  .names = network::Names(upperCase)},
@@ -67,11 +73,11 @@ public:
     network::checkConfig(options_, pagesOf(pmcOf(context_.language)), nc::fanucConfigKeys(), context_.diagnostics);
     if (!checkFiles()) return;
     network::Reading reading(context_, program_);
-    for (const FileId file : files_) reading.add(file);
+    for (const auto& mnemonic : mnemonics_) reading.add(mnemonic->file(), mnemonic);
     const bool understood = reading.read();
     network::analyse(context_, program_, !understood);
     checkCounters();
-    messages_ = readMessages(context_.language, context_.sources, files_, context_.diagnostics);
+    messages_ = readMessages(context_.language, context_.sources, mnemonics_, context_.diagnostics);
     context_.analysis.settle();
   }
 
@@ -91,6 +97,7 @@ private:
   void checkCounters();
 
   const std::vector<FileId> files_;
+  const MnemonicFiles mnemonics_; // all files; one that is a ladder text is not read as such
   const frontend::CompileOptions options_;
   network::Context context_;
   network::Program program_;
@@ -111,8 +118,8 @@ bool FanucProgram::checkFiles() {
 
 // F17.
 void FanucProgram::checkCounters() {
-  for (const FileId file : files_) {
-    const std::optional<Word> data = systemParameter(context_.sources, file, kCounterData);
+  for (const auto& file : mnemonics_) {
+    const std::optional<Word> data = systemParameter(context_.sources, *file, kCounterData);
     if (!data || !text::equalsIgnoringCase(data->text, "BCD")) continue;
     for (const network::Unit& unit : program_.units)
       for (const network::Network& network : unit.networks)

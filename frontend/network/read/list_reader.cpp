@@ -85,7 +85,7 @@ void ListReader::readStatement(std::span<const Word> words) {
   builder_.comment(words_.comment);
 }
 
-// Records a declaration as an item of the gap. Its content was read before all networks (readListSymbols).
+// Records a declaration as an item of the gap. Its content was read before all networks (readDeclarations).
 void ListReader::declaration(Command command, std::span<const Word> words) {
   const auto kind = command == Command::Symbol ? Item::Kind::Symbol : Item::Kind::Const;
   if (words.size() == 1 + operandCount(command)) context_.gaps.declaration(kind, words[1], words[2], words_.comment);
@@ -140,10 +140,16 @@ void ListReader::dispatch(Command command, std::span<const Word> words, Place at
   if (command == Command::Table) builder_.tableRow(words[1], at);
 }
 
-} // namespace
+class CommandList final : public ListFile {
+public:
+  using ListFile::ListFile;
+  void readDeclarations(Context& context) const override;
+  void read(Context& context, UnitAssembler& units) const override { ListReader(context, file(), units).read(); }
+};
 
-void readListSymbols(Context& context, FileId file) {
-  LineReader lines(context.sources, file);
+// `symbol` and `const` statements.
+void CommandList::readDeclarations(Context& context) const {
+  LineReader lines(context.sources, file());
   SourceLine line;
   LineWords words;
   while (lines.next(line)) {
@@ -160,7 +166,11 @@ void readListSymbols(Context& context, FileId file) {
   }
 }
 
-void readList(Context& context, FileId file, UnitAssembler& units) { ListReader(context, file, units).read(); }
+} // namespace
+
+std::shared_ptr<const ListFile> openList(const SourceManager&, FileId file) {
+  return std::make_shared<CommandList>(file);
+}
 
 SourceRange lastLineOf(const SourceManager& sources, FileId file) {
   const std::string_view text = sources.text(file);

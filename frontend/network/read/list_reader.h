@@ -32,11 +32,8 @@ size_t operandCount(Command command);
 // Whether a word begins a comment of other languages.
 bool looksLikeComment(std::string_view word);
 
-// Reads the `symbol` and `const` statements of a file; they apply to the whole program, so they are read before all
-// networks.
-void readListSymbols(Context& context, FileId file);
-void readList(Context& context, FileId file, UnitAssembler& units);
-inline constexpr ListForm kCommandList = {&readListSymbols, &readList, &formatList};
+std::shared_ptr<const ListFile> openList(const SourceManager& sources, FileId file);
+inline constexpr ListForm kCommandList = {&openList, &formatList};
 // The last line that is not blank, for reports of what is missing at the end.
 SourceRange lastLineOf(const SourceManager& sources, FileId file);
 

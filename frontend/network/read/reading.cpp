@@ -20,22 +20,21 @@ bool isLadder(const Language& language, const SourceManager& sources, FileId fil
   return false;
 }
 
-void Reading::add(FileId file) {
+void Reading::add(FileId file, std::shared_ptr<const ListFile> list) {
   if (isLadder(context_.language, context_.sources, file))
     ladders_.push_back(parseLadderFile(context_, file)); // checks the encoding as well
   else if (checkEncoding(context_.sources, file, context_.diagnostics))
-    lists_.push_back(file);
+    lists_.push_back(list != nullptr ? std::move(list) : context_.language.list.open(context_.sources, file));
   else
     units_.setIncomplete();
   last_ = file;
 }
 
 bool Reading::read() {
-  const ListForm& list = context_.language.list;
-  for (FileId file : lists_) list.readDeclarations(context_, file);
+  for (const auto& list : lists_) list->readDeclarations(context_);
   for (const auto& file : ladders_) readLadderDeclarations(context_, file);
-  for (FileId file : lists_) list.read(context_, file, units_);
-  if (!lists_.empty()) units_.endOfList(lastLineOf(context_.sources, lists_.back()));
+  for (const auto& list : lists_) list->read(context_, units_);
+  if (!lists_.empty()) units_.endOfList(lastLineOf(context_.sources, lists_.back()->file()));
   for (const auto& file : ladders_) readLadder(context_, file, units_);
   reportUndeclared(context_);
   units_.finish(lastLineOf(context_.sources, last_));

@@ -1,6 +1,6 @@
 // Reads all files of one program, in this order: command lists before ladder text.
 #pragma once
-#include <span>
+#include <memory>
 #include <vector>
 
 #include "frontend/ladder/text/ladder_file.h"
@@ -16,17 +16,17 @@ class Reading {
 public:
   Reading(Context& context, Program& program) : context_(context), units_(context, program) {}
 
-  void add(FileId file);
+  // `list`: the file, if it is open already.
+  void add(FileId file, std::shared_ptr<const ListFile> list = nullptr);
   // True if all function commands were recognised.
   bool read();
 
-  const std::vector<FileId>& lists() const { return lists_; }
   const std::vector<ladder::LadderFile>& ladders() const { return ladders_; }
 
 private:
   Context& context_;
   UnitAssembler units_;
-  std::vector<FileId> lists_;
+  std::vector<std::shared_ptr<const ListFile>> lists_;
   std::vector<ladder::LadderFile> ladders_;
   FileId last_;
 };

@@ -8,7 +8,6 @@
 
 #include "frontend/dialects/fanuc/areas.h"
 #include "frontend/dialects/fanuc/language.h"
-#include "frontend/dialects/fanuc/read/sections.h"
 #include "frontend/network/address.h"
 #include "ir/support/diag/operand.h"
 #include "ir/support/diag/pmc.h"
@@ -48,7 +47,7 @@ std::optional<uint32_t> takeNumber(std::string_view& text) {
 } // namespace
 
 std::vector<Message> readMessages(const network::Language& language, const SourceManager& sources,
-                                  std::span<const FileId> files, Diagnostics& diagnostics) {
+                                  const MnemonicFiles& files, Diagnostics& diagnostics) {
   std::vector<Message> messages;
   std::map<uint32_t, SourceRange> seen;
   const auto line = [&](const SourceLine& line) {
@@ -81,9 +80,9 @@ std::vector<Message> readMessages(const network::Language& language, const Sourc
     else
       messages.push_back({*bit, *number, text, range});
   };
-  for (const FileId file : files)
-    for (const Section& section : sectionsOf(sources, file))
-      if (section.kind == Section::Kind::Messages) eachLine(sources, file, section, line);
+  for (const auto& file : files)
+    for (const Section& section : file->sections())
+      if (section.kind == Section::Kind::Messages) eachLine(sources, file->file(), section, line);
   return messages;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 #include <vector>
 
+#include "frontend/dialects/fanuc/read/mnemonic.h"
 #include "frontend/network/language.h"
 #include "ir/core/module.h"
 #include "ir/support/diagnostics.h"
@@ -18,6 +19,6 @@ struct Message {
 
 // All messages of the files, in their order.
 std::vector<Message> readMessages(const network::Language& language, const SourceManager& sources,
-                                  std::span<const FileId> files, Diagnostics& diagnostics);
+                                  const MnemonicFiles& files, Diagnostics& diagnostics);
 
 } // namespace rung::frontend::fanuc

@@ -291,21 +291,25 @@ bool isNetworkNumber(std::string_view word) {
          network::parseDigits(word.substr(1, word.size() - 2)).has_value();
 }
 
-void readDeclarations(Context& context, FileId file) {
-  for (const Section& section : sectionsOf(context.sources, file))
+void MnemonicFile::readDeclarations(Context& context) const {
+  for (const Section& section : sections_)
     if (section.kind == Section::Kind::Symbols || section.kind == Section::Kind::SymbolTable)
-      readSymbols(context, file, section);
+      readSymbols(context, file(), section);
 }
 
-void readLadders(Context& context, FileId file, network::UnitAssembler& units) {
-  for (const Section& section : sectionsOf(context.sources, file)) {
+void MnemonicFile::read(Context& context, network::UnitAssembler& units) const {
+  for (const Section& section : sections_) {
     if (section.kind == Section::Kind::Unknown)
       context.diagnostics.report(diag::UnknownSection, section.range) << section.code;
     if (section.kind != Section::Kind::Ladder) continue;
-    LadderReader reader(context, file, units);
-    eachLine(context.sources, file, section, [&](const SourceLine& line) { reader.line(line); });
+    LadderReader reader(context, file(), units);
+    eachLine(context.sources, file(), section, [&](const SourceLine& line) { reader.line(line); });
     reader.finish();
   }
+}
+
+std::shared_ptr<const network::ListFile> openMnemonic(const SourceManager& sources, FileId file) {
+  return std::make_shared<MnemonicFile>(sources, file);
 }
 
 } // namespace rung::frontend::fanuc

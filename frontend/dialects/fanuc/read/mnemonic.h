@@ -1,6 +1,11 @@
-// The ladder of a mnemonic file, `%@3` (inventory §1.5, F6).
+// A mnemonic file, and its ladder, `%@3` (inventory §1.5, F6).
 #pragma once
+#include <memory>
+#include <span>
+#include <vector>
+
 #include "frontend/dialects/fanuc/format.h"
+#include "frontend/dialects/fanuc/read/sections.h"
 #include "frontend/network/language.h"
 #include "frontend/syntax/word_lexer.h"
 
@@ -13,9 +18,21 @@ bool isCommand(std::string_view word);
 // `N00012:`
 bool isNetworkNumber(std::string_view word);
 
-// Reads the symbols and ladders of all sections of a file.
-void readDeclarations(network::Context& context, FileId file);
-void readLadders(network::Context& context, FileId file, network::UnitAssembler& units);
-inline constexpr network::ListForm kMnemonicForm = {&readDeclarations, &readLadders, &formatMnemonic};
+class MnemonicFile final : public network::ListFile {
+public:
+  MnemonicFile(const SourceManager& sources, FileId file) : ListFile(file), sections_(sectionsOf(sources, file)) {}
+  std::span<const Section> sections() const { return sections_; }
+  // The symbols and the ladders of all sections.
+  void readDeclarations(network::Context& context) const override;
+  void read(network::Context& context, network::UnitAssembler& units) const override;
+
+private:
+  std::vector<Section> sections_;
+};
+
+using MnemonicFiles = std::vector<std::shared_ptr<const MnemonicFile>>;
+
+std::shared_ptr<const network::ListFile> openMnemonic(const SourceManager& sources, FileId file);
+inline constexpr network::ListForm kMnemonicForm = {&openMnemonic, &formatMnemonic};
 
 } // namespace rung::frontend::fanuc

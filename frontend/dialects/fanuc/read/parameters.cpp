@@ -1,17 +1,16 @@
 // See parameters.h.
 #include "frontend/dialects/fanuc/read/parameters.h"
 
-#include "frontend/dialects/fanuc/read/sections.h"
 #include "frontend/network/address.h"
 #include "rtlib/text/blanks.h"
 
 namespace rung::frontend::fanuc {
 
-std::optional<Word> systemParameter(const SourceManager& sources, FileId file, uint32_t number) {
+std::optional<Word> systemParameter(const SourceManager& sources, const MnemonicFile& file, uint32_t number) {
   std::optional<Word> found;
-  for (const Section& section : sectionsOf(sources, file)) {
+  for (const Section& section : file.sections()) {
     if (section.kind != Section::Kind::Parameters) continue;
-    eachLine(sources, file, section, [&](const SourceLine& line) {
+    eachLine(sources, file.file(), section, [&](const SourceLine& line) {
       const std::string_view text = text::trimmed(line.text);
       const size_t blank = text.find_first_of(" \t");
       if (found || blank == std::string_view::npos || network::parseDigits(text.substr(0, blank)) != number) return;

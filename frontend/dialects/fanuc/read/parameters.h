@@ -2,6 +2,7 @@
 #pragma once
 #include <optional>
 
+#include "frontend/dialects/fanuc/read/mnemonic.h"
 #include "frontend/syntax/word_lexer.h"
 #include "ir/support/source.h"
 
@@ -11,6 +12,6 @@ inline constexpr uint32_t kCounterData = 2; // BINARY or BCD
 inline constexpr uint32_t kPmcType = 4;
 
 // The text of the line with a number; nothing if the file does not have it.
-std::optional<Word> systemParameter(const SourceManager& sources, FileId file, uint32_t number);
+std::optional<Word> systemParameter(const SourceManager& sources, const MnemonicFile& file, uint32_t number);
 
 } // namespace rung::frontend::fanuc

@@ -55,7 +55,9 @@ std::vector<const OperandKindInfo*> operandKindsOf(const Dialect& dialect) {
   for (const InstructionInfo* row : dialect.instructions)
     for (const OperandInfo& operand : row->operands.all())
       if (std::ranges::find(kinds, operand.kind) == kinds.end()) kinds.push_back(operand.kind);
-  std::ranges::sort(kinds, {}, &OperandKindInfo::line);
+  std::ranges::sort(kinds, {}, [](const OperandKindInfo* kind) {
+    return std::pair(std::string_view(kind->defined.file_name()), kind->defined.line());
+  });
   return kinds;
 }
 

@@ -78,10 +78,28 @@ std::optional<AddressText> splitAddress(const Language& language, std::string_vi
   return result;
 }
 
+std::optional<Address> parseAddress(const Language& language, std::string_view text) {
+  const auto split = splitAddress(language, text);
+  if (!split) return std::nullopt;
+  Address address{split->area, static_cast<uint32_t>(std::min<uint64_t>(split->byte, UINT32_MAX)), 0, split->hasPoint};
+  if (!split->hasPoint) return address;
+  if (split->bit.size() != 1 || split->bit[0] < '0' || split->bit[0] > '7') return std::nullopt;
+  address.bit = static_cast<uint8_t>(split->bit[0] - '0');
+  return address;
+}
+
 Address addressOf(const Language& language, const nc::Signal& signal) {
   const bool isBit = signal.type == nc::SignalType::Bit;
   return {findArea(language, signal.area[0]).value_or(Area{}), signal.byteOffset, isBit ? signal.bit : uint8_t{0},
           isBit};
+}
+
+uint32_t bytesOf(const nc::Signal& signal) { return std::max(1u, nc::elementBytes(signal.type)); }
+
+bool covers(const Language& language, const nc::Signal& signal, const Address& address) {
+  const Address own = addressOf(language, signal);
+  if (own.area != address.area || address.byte < own.byte || address.byte >= own.byte + bytesOf(signal)) return false;
+  return !own.isBit || !address.isBit || own.bit == address.bit;
 }
 
 } // namespace rung::frontend::network

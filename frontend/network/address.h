@@ -30,12 +30,18 @@ struct AddressText {
   std::string_view bit; // after the point
 };
 std::optional<AddressText> splitAddress(const Language& language, std::string_view text);
+// A word that is an address, whether or not the control has it; a byte of a large number is saturated.
+std::optional<Address> parseAddress(const Language& language, std::string_view text);
 
 // The bytes of an area: "X0 to X127, X200 to X327".
 std::string bytesText(const AreaInfo& area);
 
 // The address of a signal of the language.
 Address addressOf(const Language& language, const nc::Signal& signal);
+// Of a bit: 1.
+uint32_t bytesOf(const nc::Signal& signal);
+// Whether the address is a part of the signal, or the byte in which its bit is.
+bool covers(const Language& language, const nc::Signal& signal, const Address& address);
 
 // Digits only, saturating; nullopt for anything else.
 std::optional<uint64_t> parseDigits(std::string_view text);

@@ -30,6 +30,11 @@ const Row* Language::findFunction(uint64_t number) const {
   return findRow(rows, [&](const Row& row) { return static_cast<uint64_t>(row.info.number) == number; });
 }
 
+bool Language::isBuilt(const frontend::InstructionInfo& info) const {
+  const Row* row = info.number < 0 ? nullptr : findFunction(static_cast<uint64_t>(info.number));
+  return row == nullptr || row->built;
+}
+
 const Row* Language::findRowOf(Control control) const {
   return findRow(rows, [&](const Row& one) { return one.control == control; });
 }

@@ -197,6 +197,8 @@ struct Language {
   // Ignoring case; null for a word or number that is not that of a function.
   const Row* findFunction(std::string_view mnemonic) const;
   const Row* findFunction(uint64_t number) const;
+  // Whether the language can compile it: a basic instruction, or a row that is built.
+  bool isBuilt(const frontend::InstructionInfo& info) const;
   // By its name, ignoring case.
   std::optional<uint32_t> findLevel(std::string_view levelName) const;
   // The index in `levels` of the one that runs in parts.

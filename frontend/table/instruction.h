@@ -43,8 +43,8 @@ struct OperandKindInfo {
   std::string_view good{};    // a valid operand
   std::string_view bad{};     // an invalid one
   std::string_view badCode{}; // the diagnostic that `bad` causes
-  // Line of its definition: the reference lists the kinds that rows use in this order.
-  uint32_t line = std::source_location::current().line();
+  // Its definition: the reference lists the kinds that rows use in the order of files and lines.
+  std::source_location defined = std::source_location::current();
 };
 
 // One operand in the order of the source; min and max bound a constant if min <= max.

@@ -38,10 +38,11 @@ LAYERS = {
     "ir/interp": ("ir", "rtlib/abi", "rtlib/text", "rtlib/core", "rtlib/load", "rtlib/run"),  # an engine, as codegen/jit is
     **{f"frontend/{folder}": ("frontend/syntax", "frontend/table", "frontend/sema", "frontend/ladder", "frontend/lower", "ir/support", "ir/core",
                               "rtlib/abi", "rtlib/text", "rtlib/nc") for folder in ("syntax", "table", "sema", "ladder", "lower")},
-    "frontend/network": ("frontend/syntax", "frontend/table", "frontend/sema", "frontend/ladder", "ir/support", "rtlib/nc/signal.h", "rtlib/text"),
+    "frontend/network": ("frontend/syntax", "frontend/table", "frontend/sema", "frontend/ladder", "ir/support", "rtlib/nc/signal.h", "rtlib/nc/signals.h", "rtlib/text"),
+    "frontend/network/rows": ("frontend", "ir/support", "rtlib/text"),
     "frontend/network/lower": ("frontend", "ir/support", "ir/core", "rtlib/nc/service.h", "rtlib/nc/pmc", "rtlib/nc/config_key.h", "rtlib/abi", "rtlib/text"),
     **{f"frontend/dialects/{dialect}": ("frontend/syntax", "frontend/table", "frontend/sema", "frontend/lower", "frontend/ladder",
-                                        "frontend/network", "frontend/network/lower", "frontend/dialects/dialect.h", "ir/support", "ir/core", "rtlib/abi", "rtlib/text",
+                                        "frontend/network", "frontend/network/lower", "frontend/network/rows", "frontend/dialects/dialect.h", "ir/support", "ir/core", "rtlib/abi", "rtlib/text",
                                         "rtlib/nc") for dialect in DIALECTS},
     "machine/host": ("rtlib/abi", "rtlib/text", "rtlib/core/handover.h", "rtlib/load", "rtlib/run", "rtlib/nc", "rtlib/nc/control"),
     "machine/io": ("machine/host", "rtlib"),

@@ -141,12 +141,7 @@ std::optional<std::string> format(SourceManager& sources, FileId file, Diagnosti
   return network::format(languageOf(Pmc::MemB), sources, file, diagnostics);
 }
 
-// Basic commands have no lowering function of their own: the network is theirs.
-bool isBuilt(const frontend::InstructionInfo& info) {
-  const network::Row* row =
-      info.number < 0 ? nullptr : languageOf(Pmc::MemB).findFunction(static_cast<uint64_t>(info.number));
-  return row == nullptr || row->built;
-}
+bool isBuilt(const frontend::InstructionInfo& info) { return languageOf(Pmc::MemB).isBuilt(info); }
 
 constexpr std::string_view kShownSpaces[] = {"A"}; // requests of messages
 

@@ -75,11 +75,7 @@ std::optional<std::string> format(SourceManager& sources, FileId file, Diagnosti
   return network::format(kLanguage, sources, file, diagnostics);
 }
 
-// Basic commands have no lowering function of their own: networks lower them.
-bool isBuilt(const frontend::InstructionInfo& info) {
-  const network::Row* row = info.number < 0 ? nullptr : kLanguage.findFunction(static_cast<uint64_t>(info.number));
-  return row == nullptr || row->built;
-}
+bool isBuilt(const frontend::InstructionInfo& info) { return kLanguage.isBuilt(info); }
 
 constexpr std::string_view kShownSpaces[] = {"A"}; // message requests
 

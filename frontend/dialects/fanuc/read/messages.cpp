@@ -19,11 +19,9 @@ namespace {
 
 // A0.1; nothing for anything else.
 std::optional<uint32_t> bitOf(std::string_view text) {
-  const auto split = network::splitAddress(languageOf(Pmc::MemD), text);
-  if (!split || split->area != areas::kA || split->bit.size() != 1 || split->byte >= kMessageState) return std::nullopt;
-  const char bit = split->bit[0];
-  if (bit < '0' || bit > '7') return std::nullopt;
-  return static_cast<uint32_t>(8 * split->byte) + static_cast<uint32_t>(bit - '0');
+  const auto address = network::parseAddress(languageOf(Pmc::MemD), text);
+  if (!address || address->area != areas::kA || !address->isBit || address->byte >= kMessageState) return std::nullopt;
+  return 8 * address->byte + address->bit;
 }
 
 // The number at the beginning of a text, which is then without it: 1000, AL1+000 (1000 + n) or OP1+000 (2000 + n).

@@ -30,13 +30,9 @@ bool readPlace(Context& context, std::string_view text, UserName& name) {
     name.value = static_cast<int64_t>(*number);
     return true;
   }
-  const auto split = network::splitAddress(context.language, text);
-  const bool isBit = split && split->hasPoint;
-  if (!split || (isBit && (split->bit.size() != 1 || split->bit[0] < '0' || split->bit[0] > '7'))) return false;
-  // Whether the control has the address shows where the symbol is used.
-  name.address = {split->area, static_cast<uint32_t>(std::min<uint64_t>(split->byte, UINT32_MAX)),
-                  isBit ? static_cast<uint8_t>(split->bit[0] - '0') : uint8_t{0}, isBit};
-  return true;
+  const auto address = network::parseAddress(context.language, text);
+  if (address) name.address = *address; // whether the control has it shows where the symbol is used
+  return address.has_value();
 }
 
 SourceRange rangeOf(const SourceLine& line, std::string_view part) {

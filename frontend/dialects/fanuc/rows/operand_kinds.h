@@ -1,6 +1,6 @@
 // The kinds of operands of the rows. A new kind is one descriptor here, and the rows that refer to it.
 #pragma once
-#include "frontend/network/operand_kind.h"
+#include "frontend/network/rows/operand_kinds.h"
 #include "ir/support/diag/pmc.h"
 
 namespace rung::frontend::fanuc {
@@ -11,15 +11,11 @@ using network::OperandKind;
 
 namespace kinds {
 
+using namespace network::kinds;
+
 inline constexpr OperandKind kBit{{"bit", "bit address or symbol", "R10.0", "R10", "bit-address-expected"}, {}};
 inline constexpr OperandKind kCoil{
     {"coil", "bit address or symbol outside X, F and M", "R10.0", "X10.0", "write-to-input"}, {}};
-inline constexpr OperandKind kFormat{{"format", "1, 2 or 4, with any leading zeros", "2", "3", "bad-format"},
-                                     {.parse = OperandClass::Format}};
-inline constexpr OperandKind kFormatA{{"format-a",
-                                       "a00n: a 0 constant or 1 address, n 1, 2 or 4 bytes; n alone means 000n", "0002",
-                                       "0003", "bad-format"},
-                                      {.parse = OperandClass::Format, .selects = true, .written = "{:04}"}};
 inline constexpr OperandKind kFormatN{{"format-n",
                                        "0nnf: nn elements (00 and 01: one) of f = 1, 2 or 4 bytes; f alone means 000f",
                                        "0022", "0023", "bad-format"},
@@ -35,22 +31,12 @@ inline constexpr OperandKind kNumberOrDigits{
     {"number-or-digits", "constant 0 to 9999 or address, as the format says", "100", "10000", "parameter-out-of-range"},
     {.constant = true, .bytes = 2}};
 inline constexpr OperandKind kByte{{"byte", "byte address or symbol", "R10", "R10.0", "byte-address-expected"}, {}};
-inline constexpr OperandKind kWord{{"word", "address of the first of 2 bytes", "R10", "R10.0", "byte-address-expected"},
-                                   {.bytes = 2}};
-inline constexpr OperandKind kDword{
-    {"dword", "address of the first of 4 bytes", "R10", "R10.0", "byte-address-expected"}, {.bytes = 4}};
-inline constexpr OperandKind kData{
-    {"data", "address of the first of as many bytes as the format says", "R10", "R8500", "address-out-of-range"},
-    {.length = Length::OfFormat}};
 inline constexpr OperandKind kElements{
-    {"elements", "address of the first of as many elements as the format says", "R10", "R8500", "address-out-of-range"},
+    {"elements", "address of the first of as many elements as the format says", "R10", "R9999", "address-out-of-range"},
     {.length = Length::OfElements}};
 inline constexpr OperandKind kBytes{
-    {"bytes", "address of the first of as many bytes as the format counts", "R10", "R8500", "address-out-of-range"},
+    {"bytes", "address of the first of as many bytes as the format counts", "R10", "R9999", "address-out-of-range"},
     {.length = Length::OfCount}};
-inline constexpr OperandKind kBlock{
-    {"block", "address of the first byte of the block", "R10", "R8500", "address-out-of-range"},
-    {.length = Length::OfNumber}};
 inline constexpr OperandKind kConstant{{"constant",
                                         "decimal number, signed or unsigned; of one that does not fit the "
                                         "format the low bytes count",
@@ -68,22 +54,14 @@ inline constexpr OperandKind kEitherWord{
 inline constexpr OperandKind kEitherDword{
     {"value-4", "constant, or address of the first of 4 bytes", "100", "UNDECLARED", "undefined-symbol"},
     {.constant = true, .either = true, .bytes = 4}};
-inline constexpr OperandKind kNumber{
-    {"number", "decimal number in the range of the instruction", "1", "-1", "parameter-out-of-range"},
-    {.parse = OperandClass::Number}};
 inline constexpr OperandKind kMask{{"mask", "one to four binary digits", "0011", "0012", "bad-mask"},
                                    {.parse = OperandClass::Mask, .digits = 1, .written = "{:04b}"}};
-inline constexpr OperandKind kLabel{{"label", "L1 to L9999", "L1", "L10000", "parameter-out-of-range"},
-                                    {.parse = OperandClass::Named, .written = "L{}"}};
 inline constexpr OperandKind kSubprogram{
     {"subprogram", "P1 to P5000, or a symbol of one", "P1", "P5001", "parameter-out-of-range"},
     {.parse = OperandClass::Named, .written = "P{}"}};
 inline constexpr OperandKind kTable{
     {"table", "address of the first element of a table", "D10", "D10.0", "byte-address-expected"},
     {.length = Length::OfFormat, .rest = true}};
-inline constexpr OperandKind kRecord{{"record", "address of the first of as many bytes as the instruction's block has",
-                                      "R10", "R8500", "address-out-of-range"},
-                                     {.length = Length::OfRow}};
 
 } // namespace kinds
 

@@ -10,24 +10,27 @@ constexpr Row endRow(int number, std::string_view mnemonic, std::string_view tit
                number, mnemonic, title, ref, doc, example);
 }
 
+inline constexpr std::string_view kCommands = "4.1, high"; // .ref of all of them
+
 inline constexpr Row kBasicRows[] = {
-    basic("RD", "normally open contact, begins a network", kBitRead, "ST0 := bit."),
-    basic("RD.NOT", "normally closed contact, begins a network", kBitRead, "ST0 := not bit."),
-    basic("RD.STK", "normally open contact, new block", kBitRead, "Pushes the bit onto the stack."),
-    basic("RD.NOT.STK", "normally closed contact, new block", kBitRead,
+    basic("RD", "normally open contact, begins a network", kBitRead, kCommands, "ST0 := bit."),
+    basic("RD.NOT", "normally closed contact, begins a network", kBitRead, kCommands, "ST0 := not bit."),
+    basic("RD.STK", "normally open contact, new block", kBitRead, kCommands, "Pushes the bit onto the stack."),
+    basic("RD.NOT.STK", "normally closed contact, new block", kBitRead, kCommands,
           "Pushes the inverted bit onto the stack. RD.STK.NOT is the same."),
-    basic("RDNT", "falling edge, begins a network", kBitRead,
+    basic("RDNT", "falling edge, begins a network", kBitRead, kCommands,
           "ST0 := 1 for one scan after the bit has become 0. The memory belongs to the instruction."),
-    basic("AND", "contact in series", kBitRead, "ST0 := ST0 and bit."),
-    basic("AND.NOT", "normally closed contact in series", kBitRead, "ST0 := ST0 and not bit."),
-    basic("OR", "contact in parallel", kBitRead, "ST0 := ST0 or bit."),
-    basic("OR.NOT", "normally closed contact in parallel", kBitRead, "ST0 := ST0 or not bit."),
-    basic("OR.STK", "blocks in parallel", {}, "ST1 := ST1 or ST0, and ST0 is dropped."),
-    basic("AND.STK", "blocks in series", {}, "ST1 := ST1 and ST0, and ST0 is dropped."),
-    basic("WRT", "coil", out("bit", kinds::kCoil), "The bit becomes ST0; ST0 stays."),
-    basic("WRT.NOT", "inverted coil", out("bit", kinds::kCoil), "The bit becomes the inverse of ST0; ST0 stays."),
-    basic("SET", "set", out("bit", kinds::kCoil), "The bit becomes 1 when ST0 is 1, and stays."),
-    basic("RST", "reset", out("bit", kinds::kCoil), "The bit becomes 0 when ST0 is 1, and stays."),
+    basic("AND", "contact in series", kBitRead, kCommands, "ST0 := ST0 and bit."),
+    basic("AND.NOT", "normally closed contact in series", kBitRead, kCommands, "ST0 := ST0 and not bit."),
+    basic("OR", "contact in parallel", kBitRead, kCommands, "ST0 := ST0 or bit."),
+    basic("OR.NOT", "normally closed contact in parallel", kBitRead, kCommands, "ST0 := ST0 or not bit."),
+    basic("OR.STK", "blocks in parallel", {}, kCommands, "ST1 := ST1 or ST0, and ST0 is dropped."),
+    basic("AND.STK", "blocks in series", {}, kCommands, "ST1 := ST1 and ST0, and ST0 is dropped."),
+    basic("WRT", "coil", out("bit", kinds::kCoil), kCommands, "The bit becomes ST0; ST0 stays."),
+    basic("WRT.NOT", "inverted coil", out("bit", kinds::kCoil), kCommands,
+          "The bit becomes the inverse of ST0; ST0 stays."),
+    basic("SET", "set", out("bit", kinds::kCoil), kCommands, "The bit becomes 1 when ST0 is 1, and stays."),
+    basic("RST", "reset", out("bit", kinds::kCoil), kCommands, "The bit becomes 0 when ST0 is 1, and stays."),
 
     endRow(1, "END1", "end of level 1", "2.2, high", "Ends level 1. Appears exactly once, even if level 1 is empty.",
            "SUB 1", Control::LevelEnd),

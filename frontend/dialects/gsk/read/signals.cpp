@@ -1,27 +1,18 @@
 // Names and addresses of signals.
 #include "frontend/dialects/gsk/read/signals.h"
 
-#include <algorithm>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "frontend/dialects/gsk/language.h"
+#include "frontend/network/explain.h"
 #include "ir/support/diag/pmc.h"
 #include "rtlib/nc/gsk/signals.h"
-#include "rtlib/nc/signals.h"
 #include "rtlib/text/letters.h"
 
 namespace rung::frontend::gsk {
 namespace {
-
-uint32_t bytesOf(const nc::Signal& signal) { return std::max(1u, nc::elementBytes(signal.type)); }
-
-bool covers(const nc::Signal& signal, const network::Address& address) {
-  const network::Address own = addressOf(kLanguage, signal);
-  if (own.area != address.area || address.byte < own.byte || address.byte >= own.byte + bytesOf(signal)) return false;
-  return !own.isBit || !address.isBit || own.bit == address.bit;
-}
 
 std::string_view groupOf(Machine machine) { return machine == Machine::Mill ? "mc" : "tc"; }
 
@@ -31,13 +22,8 @@ std::string_view machineNote(std::string_view group) {
   return "";
 }
 
-std::string textOf(const nc::Signal& signal) {
-  const network::Address address = addressOf(kLanguage, signal);
-  const uint32_t bytes = bytesOf(signal);
-  const std::string width = address.isBit ? "" : bytes == 1 ? " (1 byte)" : fmt::format(" ({} bytes)", bytes);
-  return fmt::format("[gsk] {}: {}{}, {}\n  {}\n  Manual: l.{}.{}\n", signal.symbol, textOf(kLanguage, address), width,
-                     kLanguage.at(address.area).doc, nc::meaningWithNote(signal), signal.manualLine,
-                     machineNote(signal.group));
+std::string manualOf(const nc::Signal& signal) {
+  return fmt::format("Manual: l.{}.{}", signal.manualLine, machineNote(signal.group));
 }
 
 // The signal of another machine that an operand of `length` bytes is or contains a bit of; null if there is none.
@@ -56,7 +42,7 @@ const nc::Signal* foreignSignal(Machine machine, const network::Address& address
     for (uint32_t i = 0; i < length; ++i) {
       network::Address byte = address;
       byte.byte += i;
-      if (covers(*signal, byte)) return signal;
+      if (covers(kLanguage, *signal, byte)) return signal;
     }
   }
   return nullptr;
@@ -83,23 +69,7 @@ std::string explainWord(std::string_view word) {
   if (text::equalsIgnoringCase(word, "PRM")) return "[gsk] PRM: a parameter of the functional instruction above\n";
   if (text::equalsIgnoringCase(word, "TABLE"))
     return "[gsk] TABLE: in the box of a ladder, the table of the functional instruction follows\n";
-  std::string text;
-  for (const nc::Signal& signal : nc::gskSignals())
-    if (text::equalsIgnoringCase(signal.symbol, word)) text += textOf(signal);
-  const auto split = network::splitAddress(kLanguage, word);
-  if (!split || split->byte >= kLanguage.at(split->area).bytes) return text;
-  network::Address address{split->area, static_cast<uint32_t>(split->byte), 0, split->hasPoint};
-  if (split->hasPoint) {
-    if (split->bit.size() != 1 || split->bit[0] < '0' || split->bit[0] > '7') return text;
-    address.bit = static_cast<uint8_t>(split->bit[0] - '0');
-  }
-  const size_t before = text.size();
-  for (const nc::Signal& signal : nc::gskSignals())
-    if (covers(signal, address)) text += textOf(signal);
-  if (text.size() == before)
-    text += fmt::format("[gsk] {}: area {} ({}), not a signal of the manual\n", textOf(kLanguage, address),
-                        kLanguage.at(address.area).letter, kLanguage.at(address.area).doc);
-  return text;
+  return network::explainWord(kLanguage, word, &manualOf);
 }
 
 } // namespace rung::frontend::gsk

@@ -3,6 +3,7 @@
 // are of GSK's manual (Table 9-2, l.7713-7803; groups l.3332-3372, 7591-7629). Used by the compiler for checks and
 // addresses, by the control to take blocks, and by the reference page.
 #pragma once
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string_view>
@@ -30,11 +31,11 @@ struct AxisCommand {
   AxisBuffering buffering = AxisBuffering::Buffered;
   AxisField data1;
   AxisField data2;
-  uint16_t line = 0;      // of Table 9-2; 0: another dialect
+  uint16_t line = 0;      // of Table 9-2
   uint16_t blockLine = 0; // of its data block
 };
 
-// Codes that have a name here.
+// Their codes.
 enum AxisCode : uint8_t {
   kAxisRapid = 0,
   kAxisFeed = 1,
@@ -44,6 +45,8 @@ enum AxisCode : uint8_t {
   kAxisManualReturn = 5,
   kAxisContinuous = 6,
   kAxisReference1 = 7,
+  kAxisReference2 = 8,
+  kAxisReference3 = 9,
   kAxisReference4 = 10,
   kAxisSpeed = 16,
   kAxisAux1 = 18,
@@ -52,6 +55,48 @@ enum AxisCode : uint8_t {
   kAxisMachineCoordinate = 32,
 };
 constexpr bool isAxisReference(uint8_t code) { return code >= kAxisReference1 && code <= kAxisReference4; }
+
+// What differs in the data of the commands.
+struct AxisData {
+  AxisField rapid;              // speed of a rapid movement
+  std::string_view feedPerTurn; // units
+  std::string_view length;
+};
+
+inline constexpr size_t kAxisCommands = 16;
+
+// The commands of a control, in the order of their codes. Programs of FANUC machines have 5, 6 and 16 of them.
+constexpr std::array<AxisCommand, kAxisCommands> axisCommandsWith(const AxisData& data) {
+  using enum AxisBuffering;
+  constexpr AxisField kNone = {};
+  constexpr AxisField kFeed = {"feed", "mm/min or deg/min", 1, UINT16_MAX};
+  constexpr AxisField kJogFeed = {"speed", "mm/min or deg/min", 1, UINT16_MAX};
+  constexpr AxisField kTurns = {"speed", "r/min", INT16_MIN, INT16_MAX};
+  constexpr AxisField kTime = {"time", "ms", 1, 9'999'999};
+  constexpr AxisField kDirection = {"direction: 0 positive, 1 negative", "", 0, 1};
+  constexpr AxisField kFunction = {"code of the auxiliary function", "", 0, UINT8_MAX};
+  const AxisField feedPerTurn = {"feed", data.feedPerTurn, 1, UINT16_MAX};
+  const AxisField distance = {"distance, incremental", data.length, INT32_MIN, INT32_MAX};
+  const AxisField coordinate = {"machine coordinate", data.length, INT32_MIN, INT32_MAX};
+  return {{
+      {kAxisRapid, "rapid (G00)", Buffered, data.rapid, distance, 7714, 8293},
+      {kAxisFeed, "cutting feed per minute (G94 G01)", Buffered, kFeed, distance, 7715, 8305},
+      {kAxisFeedPerTurn, "cutting feed per revolution (G95 G01)", Buffered, feedPerTurn, distance, 7716, 8315},
+      {kAxisSkip, "skip, feed per minute (G31 G01)", Alone, kFeed, distance, 7717, 8325},
+      {kAxisDwell, "dwell (G04)", Buffered, kNone, kTime, 7718, 8335},
+      {kAxisManualReturn, "manual reference point return", Alone, kNone, kNone, 7719, 8345},
+      {kAxisContinuous, "continuous feed (JOG)", Immediate, kJogFeed, kDirection, 7722, 8397},
+      {kAxisReference1, "reference point 1 (G28)", Alone, data.rapid, kNone, 7723, 8355},
+      {kAxisReference2, "reference point 2 (G30 P2)", Alone, data.rapid, kNone, 7724, 8365},
+      {kAxisReference3, "reference point 3 (G30 P3)", Alone, data.rapid, kNone, 7725, 8377},
+      {kAxisReference4, "reference point 4 (G30 P4)", Alone, data.rapid, kNone, 7726, 8387},
+      {kAxisSpeed, "speed command (M3 S)", Immediate, kTurns, kNone, 7727, 8407},
+      {kAxisAux1, "auxiliary function 1", Buffered, kNone, kFunction, 7728, 8427},
+      {kAxisAux2, "auxiliary function 2", Buffered, kNone, kFunction, 7729, 8442},
+      {kAxisAux3, "auxiliary function 3", Buffered, kNone, kFunction, 7730, 8457},
+      {kAxisMachineCoordinate, "machine coordinates (G53)", Alone, data.rapid, coordinate, 7731, 8472},
+  }};
+}
 
 // Null for a code that is not in the table, whose rows are in the order of their codes.
 const AxisCommand* findAxisCommand(std::span<const AxisCommand> table, uint64_t code);

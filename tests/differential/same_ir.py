@@ -10,7 +10,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-ENDINGS = {".lad", ".pmc", ".plc"}
+ENDINGS = {".lad", ".mne", ".plc", ".pmc"}
 LEVELS = ("0", "2")
 
 

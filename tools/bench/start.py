@@ -24,21 +24,21 @@ bit logic. Memory is the peak of the process.
 """
 
 
-def measured(tools, path, runs):
+def measured(tools, paths, runs):
     """Medians of what rung-bench-start prints."""
-    made = [json.loads(run(tools / "rung-bench-start", path)) for _ in range(runs)]
-    row = {key: statistics.median(one[key] for one in made) for key in ("first", "optimised", "real", "resident")}
+    made = [json.loads(run(tools / "rung-bench-start", *paths)) for _ in range(runs)]
+    row = {key: statistics.median(one[key] for one in made) for key in ("first", "optimised", "real", "resident", "rungs", "block")}
     row["stages"] = {stage: statistics.median(one["stages"][stage] for one in made) for stage in STAGES}
     return row
 
 
 def measure(tools):
-    rows = {name: measured(tools, ROOT / "examples" / name / "rung.toml", RUNS) for name in MACHINES}
+    rows = {name: measured(tools, [ROOT / "examples" / name / "rung.toml"], RUNS) for name in MACHINES}
     with tempfile.TemporaryDirectory() as folder:
         for dialect, size in GENERATED:
             path = Path(folder) / f"{dialect}-{size}.{ENDINGS[dialect]}"
             path.write_text(run(tools / "rung-bench-generated", "source", dialect, "bits", str(size)), encoding="utf-8")
-            rows[f"{dialect.upper()}, {size:,} rungs"] = measured(tools, path, LARGE_RUNS if size >= LARGE else RUNS)
+            rows[f"{dialect.upper()}, {size:,} rungs"] = measured(tools, [path], LARGE_RUNS if size >= LARGE else RUNS)
     return rows
 
 

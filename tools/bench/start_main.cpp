@@ -1,7 +1,7 @@
-// rung-bench-start FILE: starts a program, or the project of a rung.toml, as `rungc run` does, and prints its costs as
-// JSON: milliseconds of CPU time in each stage; of CPU and of real time from there until all code is optimised; the
-// peak memory of the process, in MB. CPU time is that of all threads. The first stage is the start of the process
-// itself.
+// rung-bench-start FILE...: starts a program, or the project of a rung.toml, as `rungc run` does, and prints its costs
+// as JSON: milliseconds of CPU time in each stage; of CPU and of real time from there until all code is optimised; the
+// peak memory of the process, in MB; rungs, and the bytes of the memory block. CPU time is that of all threads. The
+// first stage is the start of the process itself.
 #include <chrono>
 #include <ctime>
 #include <exception>
@@ -12,6 +12,7 @@
 #include <string>
 #include <string_view>
 #include <sys/resource.h>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -58,11 +59,13 @@ private:
   std::map<std::string, double> ms_;
 };
 
-// The request for a project's files with its configuration, or for one file.
-compiler::CompileRequest request(SourceManager& sources, const std::string& path, std::vector<FileId>& files) {
+// The request for a project's files with its configuration, or for files.
+compiler::CompileRequest request(SourceManager& sources, const std::vector<std::string>& paths,
+                                 std::vector<FileId>& files) {
   compiler::CompileRequest request;
+  const std::string& path = paths[0];
   if (!path.ends_with(compiler::kFileName)) {
-    files = good(compiler::addFiles(sources, {path}, {}));
+    files = good(compiler::addFiles(sources, paths, {}));
     return request;
   }
   Diagnostics diagnostics;
@@ -75,13 +78,19 @@ compiler::CompileRequest request(SourceManager& sources, const std::string& path
   return request;
 }
 
-nlohmann::json start(const std::string& path) {
+size_t rungsOf(const ir::Module& module) {
+  size_t rungs = 0;
+  for (const ir::Routine& routine : module.routines) rungs += routine.rungs.size();
+  return rungs;
+}
+
+nlohmann::json start(const std::vector<std::string>& paths) {
   const auto begun = std::chrono::steady_clock::now();
   Stages stages;
   stages.ended("process");
   SourceManager sources;
   std::vector<FileId> files;
-  compiler::CompileRequest asked = request(sources, path, files);
+  compiler::CompileRequest asked = request(sources, paths, files);
   asked.ended = [&](std::string_view stage) { stages.ended(stage); };
   Diagnostics diagnostics;
   const auto compiled = compiler::compile(sources, files, asked, diagnostics);
@@ -98,17 +107,19 @@ nlohmann::json start(const std::string& path) {
           {"first", first},
           {"optimised", cpuMs()},
           {"real", all.count()},
-          {"resident", residentMb()}};
+          {"resident", residentMb()},
+          {"rungs", rungsOf(*compiled->module)},
+          {"block", engine->program().memory_size}};
 }
 
 } // namespace
 
 int main(int argc, char** argv) try {
-  if (argc != 2) {
-    std::cerr << "usage: rung-bench-start FILE|rung.toml\n";
+  if (argc < 2) {
+    std::cerr << "usage: rung-bench-start FILE...|rung.toml\n";
     return 2;
   }
-  std::cout << start(argv[1]) << '\n';
+  std::cout << start({argv + 1, argv + argc}) << '\n';
   return 0;
 } catch (const std::exception& problem) {
   std::cerr << "rung-bench-start: " << problem.what() << '\n';

@@ -185,6 +185,11 @@ check_abi() { # and the check finds every kind of change
   python3 tests/abi/abi_test.py
 }
 
+check_fanuc() { # programs of others, which FANUC_PROGRAMS names
+  build_some rungc rung-bench-real rung_fanuc_engines
+  python3 tests/fanuc-programs/fanuc_programs_test.py build/bin
+}
+
 check_connections() { # mbpoll and pymodbus: values, and counted overruns
   build_some "${commands[@]}"
   /usr/bin/python3 tests/connections/long_run.py build/bin 600

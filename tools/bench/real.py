@@ -1,5 +1,5 @@
 """Programs of real machines (real/programs.py): from the sources to code, instructions and cold scans, beside the same
-networks in straight-line C++; and what each pass of the optimiser gains. Needs FANUC_PROGRAMS."""
+networks in straight-line C++, where FANUC_PROGRAMS names them."""
 import statistics
 import sys
 import tempfile
@@ -18,7 +18,6 @@ HERE = Path(__file__).resolve().parent
 IDLE, RANDOM = 0, 1  # seeds
 FIRST, COUNT = 20, 100  # scans that are counted
 COLD_SCANS, RUNS = 1000, 5
-PASSES = ("inline", "fold", "reuse", "dead", "transient", "versions")
 HEAD = """## Programs of real machines
 
 FANUC programs that others wrote ([tests/fanuc-programs](../tests/fanuc-programs/README.md) says
@@ -43,14 +42,6 @@ COLD_HEAD = """A scan after a sleep of 1 ms, as in [Cold scans](#cold-scans), in
 
 | program | 10 %: ours, reference, ratio | median: ours, reference, ratio |
 | --- | --- | --- |"""
-PASSES_HEAD = """### What each pass gains
-
-Instructions of the compiled rungs in a scan with random inputs, if the pipeline runs without this
-pass: LLVM's own passes remain, and do a part of its work. In brackets: how many more than with all
-passes.
-
-| program | all passes | {titles} |
-| --- | --- | {rules} |"""
 
 
 def build_straight(files, target):
@@ -74,12 +65,6 @@ def commands_of(files):
     return sum(len(part) for part in [*read.levels.values(), *read.subprograms.values()])
 
 
-def without(tools, files, name, folder, reference):
-    program = folder / f"without-{name}.so"
-    run(tools / "rung-bench-passes", program, name, *files)
-    return instructions(tools, program, reference, RANDOM, "ours")[0]
-
-
 def measured(tools, files, folder):
     program, reference = folder / "program.so", folder / "straight.so"
     run(tools / "rungc", "build", "--no-project", "-q", "--target", TARGET, "-o", program, *files)
@@ -91,7 +76,6 @@ def measured(tools, files, folder):
         "start": start.measured(tools, files, RUNS),
         "counts": {seed: [instructions(tools, program, reference, seed, which) for which in ("ours", "straight")] for seed in (IDLE, RANDOM)},
         "cold": list(zip(*times)),
-        "passes": {name: without(tools, files, name, folder, reference) for name in ("-", *PASSES)},
     }
 
 
@@ -115,20 +99,18 @@ def text_of(rows):
     for name, row in rows.items():
         ours, theirs = row["cold"]
         out.append(f"| {name} | {pair(percentile(ours, 10), percentile(theirs, 10))} | {pair(statistics.median(ours), statistics.median(theirs))} |")
-    out += ["", PASSES_HEAD.format(titles=" | ".join(f"without {name}" for name in PASSES), rules=" | ".join("---" for _ in PASSES))]
-    for name, row in rows.items():
-        all_passes = row["passes"]["-"]
-        cells = [f"{row['passes'][each]:,} ({row['passes'][each] - all_passes:+,})" for each in PASSES]
-        out.append(f"| {name} | {all_passes:,} | {' | '.join(cells)} |")
-    return "\n".join(out) + "\n\n"
+    return "\n".join(out) + "\n"
+
+
+def extracted(folder):
+    """The files of each program; none where they are not on this machine."""
+    return {} if programs.folder() is None else programs.extract(folder)
 
 
 def measure(tools):
-    if programs.folder() is None:
-        return {}
     with tempfile.TemporaryDirectory() as made:
         folder = Path(made)
-        return {name: measured(tools, files, folder) for name, files in programs.extract(folder).items()}
+        return {name: measured(tools, files, folder) for name, files in extracted(folder).items()}
 
 
 if __name__ == "__main__":

@@ -12,6 +12,7 @@ import tempfile
 from pathlib import Path
 
 import machines
+import passes
 import peers
 import plot
 import real
@@ -210,6 +211,7 @@ def main(tools, folder):
     of_machines = machines.measure(tools)
     of_services = services.measure(tools)
     of_real = real.measure(tools)
+    of_passes = passes.measure(tools)
     with tempfile.TemporaryDirectory() as built:
         programs = Programs(tools, built)
         rows = programs.counts(works(LARGE_KINDS), True)
@@ -225,7 +227,8 @@ def main(tools, folder):
     print(start.text_of(starts, os.cpu_count()))
     print(machines.text_of(of_machines))
     print(services.text_of(of_services))
-    print(real.text_of(of_real), end="")
+    print(real.text_of(of_real))
+    print(passes.text_of(of_passes))
     print(f"{counts_text(rows)}\n![Ratios of instructions, a bar for each dialect and program](performance-counts.svg)\n")
     print(peers_text(rows, peers.versions()), end="")
     print(f"{cold}\n![Ratios of cold scans, with their spread](performance-cold.svg)\n")

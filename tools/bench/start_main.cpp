@@ -17,20 +17,14 @@
 #include <nlohmann/json.hpp>
 
 #include "compiler/engines.h"
-#include "compiler/project.h"
 #include "compiler/tiered.h"
 #include "ir/support/diag_render.h"
 #include "rtlib/run/instance.h"
+#include "tools/bench/request.h"
 
 namespace {
 
 using namespace rung;
-
-template <class T>
-T good(Result<T> result) {
-  if (!result.ok()) throw std::runtime_error(result.error());
-  return std::move(result).value();
-}
 
 double cpuMs() {
   timespec now{};
@@ -59,25 +53,6 @@ private:
   std::map<std::string, double> ms_;
 };
 
-// The request for a project's files with its configuration, or for files.
-compiler::CompileRequest request(SourceManager& sources, const std::vector<std::string>& paths,
-                                 std::vector<FileId>& files) {
-  compiler::CompileRequest request;
-  const std::string& path = paths[0];
-  if (!path.ends_with(compiler::kFileName)) {
-    files = good(compiler::addFiles(sources, paths, {}));
-    return request;
-  }
-  Diagnostics diagnostics;
-  const std::optional<compiler::Project> project = compiler::load(sources, path, diagnostics);
-  if (!project) throw std::runtime_error(renderText(diagnostics, sources));
-  request.dialect = project->dialect;
-  request.options.includePaths = project->includePaths;
-  for (const compiler::Setting& setting : project->config) request.options.config[setting.key] = setting.value;
-  files = good(compiler::addFiles(sources, project->files, request.options.config));
-  return request;
-}
-
 size_t rungsOf(const ir::Module& module) {
   size_t rungs = 0;
   for (const ir::Routine& routine : module.routines) rungs += routine.rungs.size();
@@ -90,12 +65,12 @@ nlohmann::json start(const std::vector<std::string>& paths) {
   stages.ended("process");
   SourceManager sources;
   std::vector<FileId> files;
-  compiler::CompileRequest asked = request(sources, paths, files);
+  compiler::CompileRequest asked = bench::requestOf(sources, paths, files);
   asked.ended = [&](std::string_view stage) { stages.ended(stage); };
   Diagnostics diagnostics;
   const auto compiled = compiler::compile(sources, files, asked, diagnostics);
   if (!compiled) throw std::runtime_error(renderText(diagnostics, sources));
-  const auto engine = good(
+  const auto engine = bench::good(
       compiler::TieredEngine::make(*compiled, compiler::jitOptionsOf({}), ir::Counting::Ticks, compiler::Pace::Any));
   runtime::Instance instance(*engine);
   instance.scan();

@@ -1,5 +1,5 @@
-// rung-bench-passes OUT.so PASS FILE...: builds a program as `rungc build` does, without one pass of the optimiser, or
-// with all of them (PASS is -). For the price of a pass, in instructions of the program.
+// rung-bench-passes OUT.so PASS FILE...|rung.toml: builds a program as `rungc build` does, without one pass of the
+// optimiser, or with all of them (PASS is -). For the price of a pass, in instructions of the program.
 #include <algorithm>
 #include <exception>
 #include <fstream>
@@ -12,23 +12,18 @@
 #include "compiler/engines.h"
 #include "ir/support/diag_render.h"
 #include "ir/transforms/passes.h"
+#include "tools/bench/request.h"
 
 namespace {
 
 using namespace rung;
 
-template <class T>
-T good(Result<T> result) {
-  if (!result.ok()) throw std::runtime_error(result.error());
-  return std::move(result).value();
-}
-
 compiler::Compiled compiled(const std::vector<std::string>& names) {
   SourceManager sources;
-  compiler::CompileRequest request;
+  std::vector<FileId> files;
+  compiler::CompileRequest request = bench::requestOf(sources, names, files);
   request.optimise = false;
   request.keepBuilt = true;
-  const std::vector<FileId> files = good(compiler::addFiles(sources, names, request.options.config));
   Diagnostics diagnostics;
   auto program = compiler::compile(sources, files, request, diagnostics);
   if (!program) throw std::runtime_error(renderText(diagnostics, sources));
@@ -51,7 +46,7 @@ void optimise(compiler::Compiled& program, std::string_view without) {
 
 int main(int argc, char** argv) try {
   if (argc < 4) {
-    std::cerr << "usage: rung-bench-passes OUT.so PASS|- FILE...\n";
+    std::cerr << "usage: rung-bench-passes OUT.so PASS|- FILE...|rung.toml\n";
     return 2;
   }
   const std::string_view without = argv[2];
@@ -59,7 +54,7 @@ int main(int argc, char** argv) try {
     throw std::runtime_error(std::string(without) + " is not a pass of the pipeline");
   compiler::Compiled program = compiled({argv + 3, argv + argc});
   optimise(program, without);
-  const std::string object = good(compiler::sharedObject(program, {}));
+  const std::string object = bench::good(compiler::sharedObject(program, {}));
   std::ofstream(argv[1], std::ios::binary) << object;
   return 0;
 } catch (const std::exception& problem) {

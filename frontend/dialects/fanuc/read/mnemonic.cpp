@@ -145,6 +145,7 @@ void LadderReader::line(const SourceLine& whole) {
     if (isRemark || open == rest.text.size()) return;
     rest = from(rest, open + 2);
     inComment_ = true;
+    title_.blank(); // a remark above it is not the network's title
   }
 }
 

@@ -58,6 +58,8 @@ void reportNoDialect(const SourceManager& sources, FileId file, Diagnostics& dia
   frontend::LineWords words;
   for (frontend::SourceLine line; words.words.empty() && lines.next(line);) splitWords(line, {}, words);
   if (frontend::ladder::isListLine(words.words)) report.note(frontend::ladder::kListNote);
+  if (isMnemonicFile(sources.text(file)))
+    report.note("it is a mnemonic file of a FANUC control: name it .mne, or say --dialect fanuc");
   const std::string extension = std::filesystem::path(sources.name(file)).extension().string();
   const std::vector<std::string_view> programs = frontend::programExtensions();
   if (extension.empty() || std::ranges::find(programs, extension) != programs.end()) return;

@@ -169,9 +169,8 @@ constexpr std::string_view kProject =
     "a LADDER-III project (.LAD), which is binary: open it in LADDER-III, and write a mnemonic file (Tool > Mnemonic "
     "Convert)";
 constexpr std::string_view kBinary =
-    "a binary file, such as a memory card file (.MEM, PMC1.000) or a LADDER-III project (.LAD): import it into "
-    "LADDER-III "
-    "(File > Import), decompile it (Tool > Decompile), and write a mnemonic file (Tool > Mnemonic Convert)";
+    "a binary file, such as a memory card file (.MEM, PMC1.000) or a LADDER-III project (.LAD): in LADDER-III import "
+    "it, decompile it, and write a mnemonic file (Tool > Mnemonic Convert)";
 
 // FANUC's texts have tabs, line ends, form feeds and the end-of-file mark of DOS.
 bool isOfBinary(char c) { return text::isControl(c) && text::trimmed({&c, 1}).size() == 1 && c != '\f'; }
@@ -198,6 +197,8 @@ std::string_view foreignBinary(std::string_view bytes) {
 std::optional<ControlFile> controlFileOf(std::string_view text) {
   return controlFileOf(linesOf(text.substr(0, kLooked)));
 }
+
+bool isMnemonicFile(std::string_view text) { return hasSections(linesOf(text.substr(0, kLooked))); }
 
 bool isBinary(std::string_view bytes) { return std::ranges::any_of(firstText(bytes.substr(0, kLooked)), isOfBinary); }
 

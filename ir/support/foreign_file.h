@@ -19,6 +19,9 @@ enum class ControlFile : uint8_t {
 /// `text` is UTF-8 without byte order mark. Nothing for any other file; a file with sections (`%@3`) is a program.
 std::optional<ControlFile> controlFileOf(std::string_view text);
 
+/// Whether a text has sections of a mnemonic file, whatever its name is.
+bool isMnemonicFile(std::string_view text);
+
 /// Whether the bytes have a control character that no text has.
 bool isBinary(std::string_view bytes);
 

@@ -966,6 +966,10 @@ class HostileInput(Cli):
         self.assertIn(b"[missing-dialect]", done.stderr)
         self.assertIn(b"this is a line of an instruction list", done.stderr)
 
+    def test_a_mnemonic_file_of_another_name(self):
+        done = rungc("check", self.file("PMC1.TXT", "%@A\n%@3\nRD X8.4\nWRT G8.4\nSUB 1\nSUB 2\nSUB 64\n%\n%@E\n"))
+        self.assertIn(b"note: it is a mnemonic file of a FANUC control: name it .mne, or say --dialect fanuc", done.stderr)
+
     def test_a_file_of_a_control_that_is_no_program_is_named(self):
         for name, contents, said in (("mill.LAD", b"\1\0\2\0LEVEL1.#LR\0\0", b"mill.LAD' is a LADDER-III project (.LAD), which is binary"),
                                      ("PMC1.000", b"PMC\0\0\3\xff\x10", b"PMC1.000' is a binary file, such as a memory card file"),

@@ -49,14 +49,22 @@ TEST(ForeignFile, Programs) {
   EXPECT_EQ(foreign("%@4\nA0.0 1000 T\xFCr offen\n%\n"), "a program");
 }
 
+TEST(ForeignFile, MnemonicFilesOfAnyName) {
+  EXPECT_TRUE(isMnemonicFile("; made by a linker\n%@3\nRD X8.4\n"));
+  EXPECT_FALSE(isMnemonicFile("%\nO1234\n"));
+  EXPECT_FALSE(isMnemonicFile(""));
+}
+
 TEST(ForeignFile, BinaryFilesAreNamedWithTheWayToAMnemonicFile) {
   const std::string project = foreign(std::string_view("\x01\0\x02\0LEVEL1.#LR\0\0", 16));
   EXPECT_TRUE(project.starts_with("a LADDER-III project (.LAD)")) << project;
   EXPECT_EQ(foreign(std::string_view("\xD0\xCF\x11\xE0\0\0P\0001\0.\0#\0L\0R\0", 18)), project);
   const std::string card = foreign(std::string_view("PMC\0\0\x03\xFF\x10", 8));
   EXPECT_TRUE(card.starts_with("a binary file, such as a memory card file")) << card;
-  for (const std::string& text : {project, card})
+  for (const std::string& text : {project, card}) {
     EXPECT_TRUE(text.find("Tool > Mnemonic Convert") != std::string::npos);
+    EXPECT_LE(text.size(), 200u) << "a diagnostic cuts it";
+  }
   EXPECT_TRUE(foreign("PK\x03\x04rest").starts_with("a ZIP archive"));
   EXPECT_TRUE(foreign("%PDF-1.4\n").starts_with("a PDF document"));
 }

@@ -476,7 +476,7 @@ rungs: 0 changed, 0 added, 0 removed, 0 moved, 1 unchanged
         self.assertRegex(text, r"rungs: 0 changed, 0 added, 0 removed, 0 moved, \d+ unchanged\n$")
 
     def test_projects(self):
-        for example in ("gsk-mill", "nct-turning-centre", "technol-machining-centre"):
+        for example in ("fanuc-vmc", "gsk-mill", "nct-turning-centre", "technol-machining-centre"):
             done = subprocess.run([RUNGC, "diff", f"examples/{example}", f"examples/{example}"], capture_output=True, text=True, check=False)
             self.assertEqual((done.returncode, done.stderr), (SAME, ""))
 

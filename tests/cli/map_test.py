@@ -12,7 +12,7 @@ from root import go_to_root
 
 RUNGC = None
 OK, WRONG, USAGE, ENVIRONMENT = 0, 1, 2, 3
-EXAMPLES = ("gsk-mill", "gsk-panel", "nct-turning-centre", "technol-machining-centre", "technol-magazine", "technol-mill")
+EXAMPLES = ("fanuc-vmc", "gsk-mill", "gsk-panel", "nct-turning-centre", "technol-machining-centre", "technol-magazine", "technol-mill")
 
 
 class Map(unittest.TestCase):

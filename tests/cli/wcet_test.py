@@ -218,7 +218,7 @@ class Wcet(unittest.TestCase):
         self.assertIn("  measured in 5 runs: 22 steps, TIME including process-image copies\n", self.text("--scenario", scenario))
 
     def test_the_machines_of_the_examples(self):
-        for folder, scenario in (("gsk-mill", "tool-change.scn"), ("nct-turning-centre", "turret.scn"),
+        for folder, scenario in (("fanuc-vmc", "tool-change.scn"), ("gsk-mill", "tool-change.scn"), ("nct-turning-centre", "turret.scn"),
                                  ("technol-machining-centre", "tool-change.scn")):
             machine = Path("examples") / folder
             tasks, report = self.tasks("--scenario", machine / scenario)

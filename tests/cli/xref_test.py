@@ -283,7 +283,7 @@ class Xref(unittest.TestCase):
             self.assertEqual(entry["address"], again["address"])
 
     def test_examples(self):
-        for example in ("gsk-mill", "nct-turning-centre", "technol-machining-centre"):
+        for example in ("fanuc-vmc", "gsk-mill", "nct-turning-centre", "technol-machining-centre"):
             text = self.xref(f"examples/{example}")
             self.assertIn("\n  written  rung ", text)
 

@@ -165,8 +165,8 @@ TEST_P(HostileTables, AreRefusedOrHarmless) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Examples, HostileTables,
-                         testing::Values("examples/gsk-mill", "examples/gsk-panel", "examples/nct-lathe",
-                                         "examples/technol-magazine", "examples/technol-mill"),
+                         testing::Values("examples/fanuc-vmc", "examples/gsk-mill", "examples/gsk-panel",
+                                         "examples/nct-lathe", "examples/technol-magazine", "examples/technol-mill"),
                          [](const auto& tested) {
                            std::string name = std::string(tested.param).substr(9);
                            std::erase(name, '-');

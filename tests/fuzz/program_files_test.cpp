@@ -69,8 +69,8 @@ TEST_P(ProgramFile, DamageIsRefusedWithAReason) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Examples, ProgramFile,
-                         testing::Values("examples/first-cnc", "examples/gsk-mill", "examples/gsk-panel",
-                                         "examples/nct-lathe", "examples/nct-turning-centre",
+                         testing::Values("examples/fanuc-vmc", "examples/first-cnc", "examples/gsk-mill",
+                                         "examples/gsk-panel", "examples/nct-lathe", "examples/nct-turning-centre",
                                          "examples/technol-machining-centre", "examples/technol-magazine",
                                          "examples/technol-mill"),
                          [](const auto& tested) {

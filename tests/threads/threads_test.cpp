@@ -20,6 +20,7 @@ namespace {
 using Bytes = std::vector<uint8_t>;
 
 const Example kExamples[] = {
+    {"fanuc-vmc", {"vmc.mne"}},
     {"gsk-mill", {"mill.pmc"}},
     {"nct-lathe", {"io.lad", "main.lad", "probe.lad"}},
     {"technol-mill", {"mill.plc", "changer.plc"}},

@@ -176,7 +176,7 @@ void expectNothing(const Found& found) {
 
 std::vector<std::string> scenarios() {
   if (!isLarge())
-    return {"examples/gsk-mill/tool-change.scn", "examples/nct-lathe/probe.scn",
+    return {"examples/fanuc-vmc/tool-change.scn", "examples/gsk-mill/tool-change.scn", "examples/nct-lathe/probe.scn",
             "examples/nct-turning-centre/turret.scn", "examples/technol-machining-centre/homing.scn"};
   std::vector<std::string> files;
   for (const char* folder : {"examples", "tests/scenarios"})

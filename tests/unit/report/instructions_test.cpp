@@ -240,7 +240,7 @@ TEST_P(Machine, TakesNoMoreThanTheBound) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Examples, Machine,
-                         ::testing::Values("examples/gsk-mill/tool-change.scn",
+                         ::testing::Values("examples/fanuc-vmc/tool-change.scn", "examples/gsk-mill/tool-change.scn",
                                            "examples/nct-turning-centre/turret.scn",
                                            "examples/technol-machining-centre/tool-change.scn"));
 

@@ -42,7 +42,8 @@ TEST_P(Shown, AreTheMessages) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Machines, Shown,
-                         testing::Values("examples/gsk-mill/alarms.scn", "examples/nct-turning-centre/alarms.scn",
+                         testing::Values("examples/fanuc-vmc/alarms.scn", "examples/gsk-mill/alarms.scn",
+                                         "examples/nct-turning-centre/alarms.scn",
                                          "examples/technol-machining-centre/machine-on-faults.scn"));
 
 } // namespace

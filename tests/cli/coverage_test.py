@@ -367,6 +367,9 @@ class Examples(Coverage):
             numbers = [rung["number"] for rung in program["rungs"]]
             self.assertEqual(numbers, list(range(1, len(numbers) + 1)))
 
+    def test_fanuc_vmc(self):
+        self.check("fanuc-vmc", 400, 75)
+
     def test_gsk_mill(self):
         self.check("gsk-mill", 500, 50)
 

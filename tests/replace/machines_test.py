@@ -187,6 +187,68 @@ expect LUBE_PUMP 1
                   until="expect R150.0 0\nrun 500ms\nexpect R150.0 1" + self.until.replace("run 800ms", "run 300ms"))
 
 
+class FanucVmc(Machine):
+    """The conveyor has backed off twice, the lubrication counts its seconds, and a part has been counted."""
+    folder = "fanuc-vmc"
+    start = ("chips.scn", "include on.part")
+    works = """
+set CHIP_FIT 1
+set M_CODE 31
+set MF 1
+scan
+set MF 0
+set TOTAL:4 41
+set CHIP_OK 0
+run 300ms
+set CHIP_OK 1
+run 3100ms
+set CHIP_OK 0
+run 300ms
+set CHIP_OK 1
+set M_CODE 30
+set MF 1
+scan
+set MF 0
+run 1s
+"""
+    goes_on = "expect TOTAL:4 42\nexpect CHIP_REV 1\nexpect C5000:2 2"
+    outputs = (("CHIP_REV", 1), ("CHIP_FWD", 0), ("HYD_PUMP", 1), ("DOOR_LOCK", 1), ("MC_ON_LAMP", 1))
+    until = """
+run 1700ms
+expect CHIP_REV 1
+run 400ms
+expect CHIP_REV 0
+expect CHIP_FWD 1
+set CHIP_OK 0
+run 300ms
+expect_message 2004
+"""
+
+    def test_rung_added(self):
+        rung = "(* lamp: chip conveyor *)\n"
+        self.case([Edit("vmc.mne", rung, f"(* new *)\nRD CHIP_FWD\nDIFU 99\nWRT R150.7\n{rung}")],
+                  ["new state @edge/99"])
+
+    def test_rung_removed(self):
+        self.case([Edit("vmc.mne", "RD         CHIP_FWD\nAND        CHIP_OK\nTMRB\n36\n30000\nWRT        CHIP_GOOD\n", "")],
+                  ["removed state \"P13/TMRB 36/elapsed\"", "removed state \"P13/TMRB 36/last\""])
+
+    def test_output_released(self):
+        self.case([Edit("vmc.mne", "WRT        L_CHIP\n", "WRT        R150.6\n")], ["released L_CHIP"],
+                  released=("L_CHIP",))
+
+    def test_symbol_renamed(self):
+        self.case([word("vmc.mne", "CHIP_FREE", "CHIP_BACK")], ["renamed CHIP_FREE CHIP_BACK"])
+
+    def test_time_changed(self):
+        self.case([Edit("vmc.mne", "TMRB\n35\n3000\n", "TMRB\n35\n4000\n")], [],
+                  until="run 2700ms\nexpect CHIP_REV 1\nrun 400ms\nexpect CHIP_REV 0\nexpect CHIP_FWD 1")
+
+    def test_cell_moved(self):
+        self.case([Edit("vmc.mne", "CHIP_FREE,R0031.2,", "CHIP_FREE,R0150.3,")], ["moved CHIP_FREE"],
+                  self.goes_on + "\nexpect R31.2 0")
+
+
 class NctTurningCentre(Machine):
     """An axis has asked for lubrication; the pump has run for three of ten seconds, for the first time."""
     folder = "nct-turning-centre"
@@ -390,6 +452,9 @@ class ToAndFro(unittest.TestCase):
     def test_gsk_mill(self):
         self.check("gsk-mill", "coolant-lubrication", Edit("mill.pmc", "FUNC END1\n", "FUNC END1\nLD   R199.0\nFUNC WINDW\nPRM  D900\n"
                                                                "PRM  R198\nOUT  R199.1\n"))
+
+    def test_fanuc_vmc(self):
+        self.check("fanuc-vmc", "coolant", Edit("vmc.mne", "\nEND1\n", "\nEND1\nRD R199.0\nWINDW\nD900\nWRT R199.1\n"))
 
     def test_gsk_panel(self):
         self.check("gsk-panel", "panel", Edit("panel.lad", "module LEVEL2\n", "module LEVEL2\n\nrung\n|--[R199.0]--(R199.1)\n"))

@@ -57,8 +57,9 @@ std::optional<uint64_t> parseDigits(std::string_view text) {
   return value;
 }
 
-std::optional<int64_t> parseConstant(std::string_view text) {
-  if (text.size() > 2 && text[0] == '0' && text::upper(text[1]) == 'X') return parseHex(text.substr(2));
+std::optional<int64_t> parseConstant(const Language& language, std::string_view text) {
+  if (language.hexadecimal && text.size() > 2 && text[0] == '0' && text::upper(text[1]) == 'X')
+    return parseHex(text.substr(2));
   const bool negative = text.starts_with('-');
   const auto digits = parseDigits(text.substr(negative ? 1 : 0));
   if (!digits) return std::nullopt;

@@ -45,7 +45,7 @@ bool covers(const Language& language, const nc::Signal& signal, const Address& a
 
 // Digits only, saturating; nullopt for anything else.
 std::optional<uint64_t> parseDigits(std::string_view text);
-// `[-] number` or `0x` hexadecimal digits.
-std::optional<int64_t> parseConstant(std::string_view text);
+// `[-] number` or, in a language that has them, `0x` hexadecimal digits.
+std::optional<int64_t> parseConstant(const Language& language, std::string_view text);
 
 } // namespace rung::frontend::network

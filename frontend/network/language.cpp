@@ -73,6 +73,12 @@ std::string Language::fullNameOf(const Row& row) const {
   return fmt::format("{} ({} {})", row.info.mnemonic, nameOf(Command::Function), row.info.number);
 }
 
+std::string Language::callOf(const Row& row) const {
+  const std::string_view function = nameOf(Command::Function);
+  return calledByNumber ? fmt::format("{} {}", function, row.info.number)
+                        : fmt::format("{} {}", function, row.info.mnemonic);
+}
+
 std::string Language::numbered(Control control, int64_t number) const {
   return fmt::format(fmt::runtime(kindOf(rowOf(control).info.operands[0]).written), number);
 }

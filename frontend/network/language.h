@@ -41,6 +41,7 @@ enum class Control : uint8_t {
 
 constexpr bool isEnd(Control control) { return control == Control::LevelEnd || control == Control::Spe; }
 
+struct Address;
 struct Context;
 struct Function;
 struct Language;
@@ -68,6 +69,7 @@ struct Row {
   bool built = true;        // otherwise it is known, and refused by name
   // Reports operands that are wrong although their kinds and ranges are right; may be null.
   void (*check)(const Function& function, Diagnostics& diagnostics) = nullptr;
+  int8_t direction = -1;    // the condition that is 0 to read a table and 1 to write it; what is read may be an input
 };
 
 // The statements of a list (P12). Declarations are allowed in lists as in ladder text, for conversions.
@@ -188,9 +190,13 @@ struct Language {
   int64_t (*mostNumber)(const Language& language, const Row& row) = nullptr;
   std::string_view nameMarks{}; // characters of names beside letters, digits and _; if any, a name may begin with all
   bool namesIgnoreCase = false;
+  bool hexadecimal = true;            // constants may be hexadecimal: 0x1F
   bool cutsConstants = false;         // of one that is too large for its length the low bytes count, with a warning
   Diag undeclared = diag::BadOperand; // reported for a name that is not declared
   bool needsProgramEnd = true;        // if it has an end of the program
+  bool calledByNumber = false;        // how a function is named in advice: SUB 1, not FUNC END1
+  // The value of a bit that the control holds constant, nothing for any other bit; null: no bit is constant.
+  std::optional<bool> (*constantOf)(const Language& language, const Address& address) = nullptr;
 
   constexpr std::string_view nameOf(Command command) const { return commands[static_cast<size_t>(command)]; }
   constexpr const AreaInfo& at(Area area) const { return areas[static_cast<size_t>(area)]; }
@@ -213,6 +219,8 @@ struct Language {
   std::string_view mnemonicOf(Control control) const { return rowOf(control).info.mnemonic; }
   // With its number, as in a list: "END1 (FUNC 0)".
   std::string fullNameOf(const Row& row) const;
+  // How a list calls it: "FUNC END1", "SUB 1".
+  std::string callOf(const Row& row) const;
   // A label or a subprogram as an operand of its instruction.
   std::string numbered(Control control, int64_t number) const;
   // The letter with which it begins.

@@ -27,6 +27,7 @@ struct OperandTraits {
   bool either = false;               // Value: it is a constant if it is written as one, otherwise an address
   Length length = Length::OfKind;    // of an address
   uint32_t bytes = 1;                // of an address, with OfKind
+  uint32_t least = 0;                // of these, as many must exist where an area ends; 0: all
   std::optional<Area> area = {};     // of an address: the only area allowed
   Diag elsewhere = diag::BadOperand; // reported for another area
   bool rest = false;                 // of an address: it may include all bytes after it in its area

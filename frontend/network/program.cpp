@@ -36,6 +36,23 @@ std::vector<Logic> logicOf(std::span<const Written> commands) {
   return result;
 }
 
+std::optional<bool> constantCondition(const Language& language, const Network& network, size_t condition) {
+  std::vector<const LogicStep*> stack; // null: a value of several contacts
+  for (const LogicStep& step : network.logic) {
+    const bool isBlock = step.kind == Logic::OrBlock || step.kind == Logic::AndBlock;
+    if (step.kind == Logic::Load)
+      stack.push_back(&step);
+    else if (isBlock && !stack.empty())
+      stack.pop_back();
+    if (step.kind != Logic::Load && !stack.empty()) stack.back() = nullptr;
+  }
+  if (condition >= stack.size() || stack[condition] == nullptr || language.constantOf == nullptr) return std::nullopt;
+  const LogicStep& contact = *stack[condition];
+  const std::optional<bool> bit = language.constantOf(language, contact.bit);
+  if (!bit || contact.contact == Contact::Falling) return std::nullopt;
+  return *bit != (contact.contact == Contact::Closed);
+}
+
 std::string nameOf(const Language& language, const Unit& unit) {
   if (unit.kind == UnitKind::Subprogram) return language.numbered(Control::Sp, unit.number);
   return std::string(language.levels[unit.number].name);

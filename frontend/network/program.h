@@ -116,6 +116,10 @@ struct Network {
   uint32_t com = kNone; // the COM network whose region contains this one
 };
 
+// The value of the condition of its function with this index, if that is a single contact of a bit that the control
+// holds constant. Its other conditions may be anything.
+std::optional<bool> constantCondition(const Language& language, const Network& network, size_t condition);
+
 // The control type of its function.
 inline Control controlOf(const Network& network) {
   return network.function.row == nullptr ? Control::Plain : network.function.row->control;

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "frontend/dialects/fanuc/check/functions.h"
 #include "frontend/dialects/fanuc/config.h"
 #include "frontend/dialects/fanuc/language.h"
 #include "frontend/dialects/fanuc/lower/lower.h"
@@ -77,6 +78,7 @@ public:
     const bool understood = reading.read();
     network::analyse(context_, program_, !understood);
     checkCounters();
+    checkFunctions(context_, program_, isSimulated());
     messages_ = readMessages(context_.language, context_.sources, mnemonics_, context_.diagnostics);
     context_.analysis.settle();
   }
@@ -93,6 +95,7 @@ public:
   }
 
 private:
+  bool isSimulated() const;
   bool checkFiles();
   void checkCounters();
 
@@ -103,6 +106,11 @@ private:
   network::Program program_;
   std::vector<Message> messages_;
 };
+
+bool FanucProgram::isSimulated() const {
+  const auto nc = options_.config.find("nc");
+  return nc != options_.config.end() && nc->second == "simulated";
+}
 
 // Reports files that are something else: LADDER-III's own form, a memory card, parameters of the control.
 bool FanucProgram::checkFiles() {

@@ -49,6 +49,13 @@ int64_t mostNumber(const network::Language& language, const Row& row) {
   return INT64_MAX;
 }
 
+// R9091.0 and .1.
+std::optional<bool> constantOf(const network::Language& language, const network::Address& address) {
+  const network::Address system = systemArea(pmcOf(language));
+  if (address.area != system.area || address.byte != system.byte + kClockByte || address.bit > 1) return std::nullopt;
+  return address.bit == 1;
+}
+
 network::Language make(Pmc pmc) {
   return {
       .name = "fanuc",
@@ -70,9 +77,12 @@ network::Language make(Pmc pmc) {
       .mostNumber = mostNumber,
       .nameMarks = "#*+-/=.&$%!?@",
       .namesIgnoreCase = true,
+      .hexadecimal = false,
       .cutsConstants = true, // §8.3
       .undeclared = diag::UndefinedSymbol,
       .needsProgramEnd = limitsOf(pmc).hasEnd,
+      .calledByNumber = true,
+      .constantOf = constantOf,
   };
 }
 

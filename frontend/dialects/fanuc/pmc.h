@@ -23,7 +23,8 @@ struct PmcLimits {
   uint32_t edges = 0;
   uint32_t subprograms = 0;
   bool hasMilliseconds = true; // fixed timers count in 1 ms, otherwise in 8 ms
-  bool hasEnd = true;          // the program has subprograms, and END after them
+  constexpr int64_t mostPresetMs() const { return hasMilliseconds ? 32'760'000 : 262'136; } // of fixed timers
+  bool hasEnd = true; // the program has subprograms, and END after them
 };
 const PmcLimits& limitsOf(Pmc pmc);
 

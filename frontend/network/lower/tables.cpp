@@ -139,7 +139,7 @@ void lowerSearch(Lowering& f) {
 }
 
 // Conditions RW, RST, ACT. Indices below the number of entries are valid (P36), if the entries exist. A format may
-// count several entries, which are moved one after the other.
+// count several entries, which are moved one after the other. What is an input is only read.
 void lowerIndexedMove(Lowering& f) {
   f.resettable([&] {
     ir::RungBuilder& b = f.b;
@@ -153,12 +153,15 @@ void lowerIndexedMove(Lowering& f) {
     const ValueId write = f.condition(0);
     const auto data = [&](uint32_t i) { return plus(f.param(3).address, i * f.function.length); };
     const auto place = [&](uint32_t i) { return byteIndex(f, i == 0 ? index : b.add(index, b.i32(i))); };
-    f.b.when(b.and_(legal, write), [&] {
+    const auto isInput = [&](size_t i) { return f.language().at(f.param(i).address.area).use == AreaUse::Input; };
+    const auto store = [&] {
       for (uint32_t i = 0; i < count; ++i) b.storeAt(tableWindow(f, table), place(i), f.load(f.dataType(), data(i)));
-    });
-    f.b.when(b.and_(legal, b.not_(write)), [&] {
+    };
+    const auto load = [&] {
       for (uint32_t i = 0; i < count; ++i) f.store(data(i), b.loadAt(f.dataType(), tableWindow(f, table), place(i)));
-    });
+    };
+    if (!isInput(2)) b.when(b.and_(legal, write), store);
+    if (!isInput(3)) b.when(b.and_(legal, b.not_(write)), load);
     return b.not_(legal);
   });
 }

@@ -38,7 +38,8 @@ bool isNumbered(const Language& language, std::string_view text) {
 // Whether the text is a name that cannot mean anything else (P12).
 bool isFreeName(const Language& language, std::string_view text) {
   if (text.empty() || (language.nameMarks.empty() && !text::isLetter(text[0]))) return false;
-  if (!std::ranges::all_of(text, [&](char c) { return isNameChar(language, c); }) || parseConstant(text)) return false;
+  if (!std::ranges::all_of(text, [&](char c) { return isNameChar(language, c); }) || parseConstant(language, text))
+    return false;
   return !isNumbered(language, text) && !splitAddress(language, text) && !isCommand(language, text);
 }
 
@@ -63,6 +64,7 @@ std::optional<NamedAddress> readAddress(Diagnostics& diagnostics, const AddressT
   if (text.bit.size() != 1 || text.bit[0] < '0' || text.bit[0] > '7') {
     DiagBuilder report = diagnostics.report(diag::BadBitNumber, word.range);
     report << text.bit;
+    if (text.bit.empty()) report.note(fmt::format("a bit is missing after the point: {0}0 to {0}7", word.text));
     if (text.bit.find_first_of("oO") != std::string_view::npos) report.note("a zero is a digit, not the letter O");
     return std::nullopt;
   }
@@ -143,7 +145,7 @@ bool noteNegation(const Language& language, std::string_view operand, DiagBuilde
 }
 
 // Explains K100, H1F and #100 of other controls; false for anything else.
-bool noteLetter(std::string_view constant, DiagBuilder& report) {
+bool noteLetter(const Language& language, std::string_view constant, DiagBuilder& report) {
   if (constant.size() < 2 || !text::isDigit(constant[1])) return false;
   const char mark = text::upper(constant[0]);
   const std::string_view digits = constant.substr(1);
@@ -152,22 +154,23 @@ bool noteLetter(std::string_view constant, DiagBuilder& report) {
   if (isDecimal && (mark == 'K' || mark == '#'))
     report.note(fmt::format("a number is written without '{}': {}", constant[0], digits));
   else if (isHex && (mark == 'H' || mark == '#'))
-    report.note(fmt::format("a hexadecimal number is written 0x{}", digits));
+    report.note(language.hexadecimal ? fmt::format("a hexadecimal number is written 0x{}", digits)
+                                     : std::string("a number is written with decimal digits"));
   else
     return false;
   return true;
 }
 
 // Explains how a constant of another language is written here; false if the name is not one.
-bool noteConstant(const UndeclaredName& use, DiagBuilder& report) {
+bool noteConstant(const Language& language, const UndeclaredName& use, DiagBuilder& report) {
   if (const auto time = frontend::foreignTime(use.name)) {
     report.note(fmt::format("{} in milliseconds: {}", use.name, time->milliseconds()));
     return true;
   }
   const std::optional<frontend::ForeignNumber> number = frontend::foreignNumber(use.name);
-  if (!number) return noteLetter(use.name, report);
+  if (!number) return noteLetter(language, use.name, report);
   const auto value = text::numberIn<uint64_t>(number->digits, static_cast<int>(number->base));
-  if (number->base == 16)
+  if (number->base == 16 && language.hexadecimal)
     report.meant(use.range, fmt::format("0x{}", number->digits));
   else if (value)
     report.meant(use.range, fmt::format("{}", *value));
@@ -186,8 +189,8 @@ bool noteSyntax(const Language& language, std::string_view word, DiagBuilder& re
   else if (looksLikeComment(word))
     report.note("a comment begins with ';'");
   else if (word.ends_with(':'))
-    report.note(fmt::format("a label is `{} {}` with its number as a parameter; a title is a comment after ';'",
-                            language.nameOf(Command::Function), language.mnemonicOf(Control::Lbl)));
+    report.note(fmt::format("a label is `{}` with its number as a parameter; a title is a comment after ';'",
+                            language.callOf(language.rowOf(Control::Lbl))));
   else
     return false;
   return true;
@@ -200,7 +203,7 @@ void explain(const Context& context, std::span<const UndeclaredName> uses, DiagB
   std::ranges::replace(pointed, ',', '.');
   if (pointed != use.name && splitAddress(context.language, pointed))
     report.note(fmt::format("write {}", pointed)).fix(use.range, pointed);
-  else if (use.kind == UserName::Kind::Constant ? !noteConstant(use, report)
+  else if (use.kind == UserName::Kind::Constant ? !noteConstant(context.language, use, report)
                                                 : !noteNegation(context.language, use.name, report))
     suggestName(context, uses, report);
   if (use.kind == UserName::Kind::Symbol && isOtherAddress(use.name))
@@ -268,11 +271,11 @@ void Names::addSymbol(Context& context, const Word& name, const Word& value, std
 void Names::addConstant(Context& context, const Word& name, const Word& value) {
   UserName* constant = declare(context, name, UserName::Kind::Constant);
   if (constant == nullptr) return;
-  const auto number = parseConstant(value.text);
+  const auto number = parseConstant(context.language, value.text);
   if (!number) {
     DiagBuilder report = context.diagnostics.report(diag::BadOperand, value.range);
     report << value.text << "a constant";
-    noteConstant({{value.text, value.range}, UserName::Kind::Constant, {}}, report);
+    noteConstant(context.language, {{value.text, value.range}, UserName::Kind::Constant, {}}, report);
   }
   constant->text = value.text;
   constant->value = number.value_or(0);

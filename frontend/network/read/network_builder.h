@@ -41,6 +41,8 @@ public:
   void title(std::string_view text) { pendingTitle_ = text; }
   // Completes the current network.
   void finish();
+  // The number of values on the stack of the current network, which has neither a function nor a coil yet; otherwise 0.
+  uint32_t values() const { return state_ == State::Logic ? depth() : 0; }
 
 private:
   enum class State : uint8_t { Idle, Logic, Function, Outputs };

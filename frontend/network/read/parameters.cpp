@@ -18,13 +18,13 @@ using frontend::OperandInfo;
 std::optional<int64_t> constantWord(Context& context, const Word& word, std::string_view expected) {
   if (const uint32_t index = context.names.use(word, UserName::Kind::Constant); index != frontend::kNoName)
     return context.names[index].bad ? std::nullopt : std::optional(context.names[index].value);
-  const auto value = parseConstant(word.text);
+  const auto value = parseConstant(context.language, word.text);
   if (!value) unknownOperand(context, word, UserName::Kind::Constant, expected);
   return value;
 }
 
 bool isConstantWord(const Context& context, const Word& word) {
-  if (parseConstant(word.text)) return true;
+  if (parseConstant(context.language, word.text)) return true;
   const uint32_t index = context.names.find(word.text);
   return index != frontend::kNoName && context.names[index].kind == UserName::Kind::Constant;
 }
@@ -238,9 +238,10 @@ bool ParameterCheck::checkPlace(const Word& word, const OperandKind& kind) {
 
 bool ParameterCheck::checkAddress(const OperandInfo& info, const Word& word, Param& param) {
   if (!checkPlace(word, *param.kind)) return false;
-  const uint32_t length = lengthOf(*param.kind);
-  const auto address = byteOperand(context_, word, length, expectedBy(param.kind, kByteAddress));
+  const uint32_t most = lengthOf(*param.kind), least = param.kind->least == 0 ? most : param.kind->least;
+  const auto address = byteOperand(context_, word, least, expectedBy(param.kind, kByteAddress));
   if (!address) return false;
+  const uint32_t length = std::min(most, context_.language.at(address->area).room(address->byte));
   param.isAddress = true;
   param.address = *address;
   context_.analysis.use({.range = word.range,
@@ -249,7 +250,8 @@ bool ParameterCheck::checkAddress(const OperandInfo& info, const Word& word, Par
                          .access = info.access,
                          .isVariable = isVariable(*param.kind)});
   param.bytes = param.kind->rest ? context_.language.at(address->area).room(address->byte) : length;
-  return info.access == Access::Read || checkWritable(context_, *address, length, word.range);
+  const bool maybeRead = info.access == Access::ReadWrite && function_.row->direction >= 0; // the dialect checks it
+  return info.access == Access::Read || maybeRead || checkWritable(context_, *address, length, word.range);
 }
 
 // Whether the operand was already rejected where it was read; its range is then invalid.

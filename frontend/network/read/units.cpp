@@ -213,9 +213,12 @@ void UnitAssembler::endOfList(SourceRange lastLine) {
     DiagBuilder report = context_.diagnostics.report(language_.levels[level].endMissing,
                                                      later == levelCount() ? lastLine : ends_[later]);
     report << language_.fullNameOf(end);
-    if (level + 1 < levelCount())
-      report.note(fmt::format("write `{} {}` before the first network of {}", language_.nameOf(Command::Function),
-                              end.info.mnemonic, language_.levels[level + 1].name));
+    if (level + 1 == levelCount()) continue;
+    const Level& next = language_.levels[level + 1];
+    report.note(next.optional
+                    ? fmt::format("write `{}` after the last network of {}", language_.callOf(end),
+                                  language_.levels[level].name)
+                    : fmt::format("write `{}` before the first network of {}", language_.callOf(end), next.name));
   }
   const Row* end = language_.findRowOf(Control::ProgramEnd);
   if (end != nullptr && language_.needsProgramEnd && !programEnd_.valid() && ends_[language_.mainLevel()].valid())

@@ -19,30 +19,33 @@ class Digits {
 public:
   Digits(Lowering& f, ValueId four) : f_(f), b_(f.b), four_(four) {}
 
-  // The byte or the two bytes as they are, in an i16.
-  ValueId bits(const Address& address) {
+  // The byte or the two bytes of a parameter as they are, in an i16. A second byte that does not exist is 0.
+  ValueId bits(size_t i) {
+    const Address& address = f_.param(i).address;
     const ValueId low = b_.zextOrTrunc(Type::I16, f_.load(Type::I8, address));
-    return b_.select(four_, f_.load(Type::I16, address), low);
+    return isByte(i) ? low : b_.select(four_, f_.load(Type::I16, address), low);
   }
-  void storeBits(const Address& address, ValueId bits) {
-    b_.when(four_, [&] { f_.store(address, bits); }, [&] { f_.store(address, b_.trunc(Type::I8, bits)); });
+  void storeBits(size_t i, ValueId bits) {
+    const Address& address = f_.param(i).address;
+    const auto low = [&] { f_.store(address, b_.trunc(Type::I8, bits)); };
+    if (isByte(i)) return low();
+    b_.when(four_, [&] { f_.store(address, bits); }, low);
   }
   // As a number, in an i32.
-  ValueId number(const Address& address) { return b_.zextOrTrunc(Type::I32, b_.bcdDecode(bits(address))); }
+  ValueId number(size_t i) { return b_.zextOrTrunc(Type::I32, b_.bcdDecode(bits(i))); }
   // The low digits of a number.
-  void store(const Address& address, ValueId number) {
-    storeBits(address, b_.bcdEncode(b_.trunc(Type::I16, b_.remU(number, end()))));
-  }
+  void store(size_t i, ValueId number) { storeBits(i, b_.bcdEncode(b_.trunc(Type::I16, b_.remU(number, end())))); }
   // The number that has too many digits: 100 or 10000.
   ValueId end() { return b_.select(four_, b_.i32(kFourDigits), b_.i32(kTwoDigits)); }
   // The length of a number in bytes: 1 or 2.
   ValueId bytes() { return b_.select(four_, b_.i32(2), b_.i32(1)); }
   // A parameter that is a constant or an address.
-  ValueId operand(size_t i) {
-    return f_.param(i).isAddress ? number(f_.param(i).address) : b_.constant(Type::I32, f_.param(i).value);
-  }
+  ValueId operand(size_t i) { return f_.param(i).isAddress ? number(i) : b_.constant(Type::I32, f_.param(i).value); }
 
 private:
+  // The last one of its area.
+  bool isByte(size_t i) const { return f_.param(i).bytes == 1; }
+
   Lowering& f_;
   ir::RungBuilder& b_;
   ValueId four_;
@@ -101,9 +104,7 @@ void lowerBcdRotation(Lowering& f) {
     ir::RungBuilder& b = f.b;
     Digits digits(f, f.condition(1));
     const ValueId base = b.zextOrTrunc(Type::I64, f.condition(0));
-    const auto position = [&](size_t i) {
-      return b.sub(b.zextOrTrunc(Type::I64, digits.number(f.param(i).address)), base);
-    };
+    const auto position = [&](size_t i) { return b.sub(b.zextOrTrunc(Type::I64, digits.number(i)), base); };
     const ValueId count = b.constant(Type::I64, f.param(0).value);
     const network::Rotation rotation{.count = count,
                                      .current = position(1),
@@ -112,8 +113,7 @@ void lowerBcdRotation(Lowering& f) {
                                      .shorter = f.condition(2),
                                      .before = f.condition(3),
                                      .asSteps = f.condition(4)};
-    return network::rotate(f, rotation,
-                           [&](ValueId result) { digits.store(f.param(3).address, b.trunc(Type::I32, result)); });
+    return network::rotate(f, rotation, [&](ValueId result) { digits.store(3, b.trunc(Type::I32, result)); });
   });
 }
 
@@ -133,7 +133,7 @@ void lowerBcdTable(Lowering& f) {
     const ValueId legal = b.ltU(index, b.i32(static_cast<uint32_t>(f.function.table.size())));
     b.when(legal, [&] {
       const ir::Window table = f.constants(bytes, static_cast<uint32_t>(bytes.size() - 1));
-      digits.storeBits(f.param(2).address, b.loadAt(Type::I16, table, b.mul(index, b.i32(2))));
+      digits.storeBits(2, b.loadAt(Type::I16, table, b.mul(index, b.i32(2))));
     });
     return b.not_(legal);
   });
@@ -144,9 +144,9 @@ void lowerBcdConversion(Lowering& f) {
   f.resettable([&] {
     ir::RungBuilder& b = f.b;
     Digits digits(f, f.condition(0));
-    const ValueId source = digits.bits(f.param(0).address);
+    const ValueId source = digits.bits(0);
     const auto finish = [&](ValueId error, ValueId result) {
-      b.when(b.not_(error), [&] { digits.storeBits(f.param(1).address, result); });
+      b.when(b.not_(error), [&] { digits.storeBits(1, result); });
       return error;
     };
     const auto fromBcd = [&] {
@@ -165,7 +165,7 @@ void lowerBcdConversion(Lowering& f) {
 void lowerBcdCompare(Lowering& f) {
   f.latchedOutput(f.act(), {}, [&] {
     Digits digits(f, f.condition(0));
-    return frontend::compare(f.b, f.variant(), digits.operand(1), digits.number(f.param(2).address));
+    return frontend::compare(f.b, f.variant(), digits.operand(1), digits.number(2));
   });
 }
 
@@ -176,7 +176,7 @@ void lowerBcdSearch(Lowering& f) {
     Digits digits(f, f.condition(0));
     Elements elements(f, 1, f.condition(0));
     const ValueId count = elements.count(f.param(0).value);
-    const ValueId searched = digits.bits(f.param(2).address);
+    const ValueId searched = digits.bits(2);
     const auto most = static_cast<uint32_t>(std::min<int64_t>(f.param(0).value, f.room(f.param(1).address)));
     const ValueId none[] = {b.bit(false), b.i32(0)};
     const auto inside = b.loop(most, none);
@@ -184,7 +184,7 @@ void lowerBcdSearch(Lowering& f) {
     const ValueId hit = b.and_(b.ltU(element, count), b.eq(elements.load(element), searched));
     const ValueId next[] = {b.or_(inside[1], hit), b.select(hit, element, inside[2])};
     const auto found = b.endLoop(next);
-    b.when(found[0], [&] { digits.store(f.param(3).address, found[1]); });
+    b.when(found[0], [&] { digits.store(3, found[1]); });
     return b.not_(found[0]);
   });
 }
@@ -195,11 +195,14 @@ void lowerBcdIndexedMove(Lowering& f) {
     ir::RungBuilder& b = f.b;
     Digits digits(f, f.condition(0));
     Elements elements(f, 1, f.condition(0));
-    const ValueId index = digits.number(f.param(3).address);
+    const ValueId index = digits.number(3);
     const ValueId legal = b.ltU(index, elements.count(f.param(0).value));
     const ValueId write = f.condition(1);
-    b.when(b.and_(legal, write), [&] { elements.store(index, digits.bits(f.param(2).address)); });
-    b.when(b.and_(legal, b.not_(write)), [&] { digits.storeBits(f.param(2).address, elements.load(index)); });
+    const auto isInput = [&](size_t i) {
+      return f.language().at(f.param(i).address.area).use == network::AreaUse::Input;
+    };
+    if (!isInput(1)) b.when(b.and_(legal, write), [&] { elements.store(index, digits.bits(2)); });
+    if (!isInput(2)) b.when(b.and_(legal, b.not_(write)), [&] { digits.storeBits(2, elements.load(index)); });
     return b.not_(legal);
   });
 }
@@ -209,10 +212,9 @@ void lowerBcdArithmetic(Lowering& f) {
   f.resettable([&] {
     ir::RungBuilder& b = f.b;
     Digits digits(f, f.condition(0));
-    const ValueId first = digits.number(f.param(1).address), second = digits.operand(2);
-    const Address& result = f.param(3).address;
+    const ValueId first = digits.number(1), second = digits.operand(2);
     const auto stored = [&](ValueId value) {
-      digits.store(result, value);
+      digits.store(3, value);
       return b.leS(digits.end(), value);
     };
     if (f.variant() == kDivide)
@@ -227,8 +229,7 @@ void lowerBcdArithmetic(Lowering& f) {
 
 // Conditions BYT, ACT.
 void lowerBcdNumber(Lowering& f) {
-  f.b.when(f.act(),
-           [&] { Digits(f, f.condition(0)).store(f.param(1).address, f.b.constant(Type::I32, f.param(0).value)); });
+  f.b.when(f.act(), [&] { Digits(f, f.condition(0)).store(1, f.b.constant(Type::I32, f.param(0).value)); });
 }
 
 } // namespace rung::frontend::fanuc

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -84,7 +85,7 @@ public:
       : context_(context), builder_(context, file, [&units](network::Network&& n) { units.add(std::move(n)); }) {}
 
   void line(const SourceLine& line);
-  void finish() { builder_.finish(); }
+  void finish();
 
 private:
   bool takeComment(SourceLine& line);
@@ -94,11 +95,14 @@ private:
   void command(const CommandInfo& command, std::span<const Word> words, Place at);
   const Row* functionNamed(std::string_view word) const;
   void function(const Row* row, std::span<const Word> parameters, Place at);
+  void begin(const Row* row);
   void numbered(std::span<const Word> words, Place at);
   bool wantsParameter() const;
   bool isOperand(const Word& word) const;
   void parameter(const Word& word);
   void unknown(std::span<const Word> words, Place at);
+  void subtraction(std::span<const Word> words, Place at);
+  std::span<const Word> withoutParameterWord(std::span<const Word> words);
   Place placeOf(std::span<const Word> words) const {
     return {join(words.front().range, words.back().range), line_.number};
   }
@@ -109,9 +113,11 @@ private:
   LineWords words_;
   network::TitleRule title_;
   bool inComment_ = false; // (* over lines *)
+  Place commentBegin_;
   // The function whose parameters follow. `row_` is null for an unknown one, which takes everything but commands.
   bool inFunction_ = false;
   const Row* row_ = nullptr;
+  bool saidForeign_ = false; // of a word before its parameters
   size_t parameters_ = 0;
   int64_t capacity_ = 0; // of its table
 };
@@ -143,10 +149,19 @@ void LadderReader::line(const SourceLine& whole) {
     const bool isEmpty = text::trimmed(before.text).empty();
     if (!isEmpty || (open == rest.text.size() && !sawComment && !hasNumber)) plain(before);
     if (isRemark || open == rest.text.size()) return;
+    commentBegin_ = {rest.range(open, open + 2), rest.number};
     rest = from(rest, open + 2);
     inComment_ = true;
     title_.blank(); // a remark above it is not the network's title
   }
+}
+
+void LadderReader::finish() {
+  if (inComment_) {
+    context_.diagnostics.report(diag::UnclosedComment, commentBegin_.range);
+    builder_.garbage(commentBegin_);
+  }
+  builder_.finish();
 }
 
 // The text of a comment up to its end, after which `line` begins then; false if it does not end on the line.
@@ -195,11 +210,14 @@ void LadderReader::statement(std::span<const Word> words) {
   if (!network::checkCharacters(context_.diagnostics, words)) return builder_.garbage(at);
   const CommandInfo* known = findCommand(words[0].text);
   if (known != nullptr && (words.size() > 1 || !takesBit(known->verb))) return command(*known, words, at);
-  if (text::equalsIgnoringCase(words[0].text, "SUB") && words.size() > 1) return numbered(words, at);
+  if (text::equalsIgnoringCase(words[0].text, "SUB"))
+    return words.size() > 1 ? numbered(words, at) : subtraction(words, at);
   if (words.size() == 2 && text::equalsIgnoringCase(words[1].text, "SP"))
     return function(&context_.language.rowOf(Control::Sp), words.first(1), at);
   if (const Row* row = functionNamed(words[0].text)) return function(row, words.subspan(1), at);
   if (known != nullptr) return command(*known, words, at);
+  if (text::equalsIgnoringCase(words[0].text, "FUNC") && !context_.names.has(words[0].text)) return unknown(words, at);
+  if (inFunction_) words = withoutParameterWord(words);
   if (!wantsParameter() && !(inFunction_ && isOperand(words[0]))) return unknown(words, at);
   for (const Word& word : words) parameter(word);
 }
@@ -239,15 +257,42 @@ void LadderReader::numbered(std::span<const Word> words, Place at) {
   function(row, words.subspan(2), at);
 }
 
+// `SUB` alone is the function SUB 20, if as many conditions as that one has are on the stack. Otherwise the number of
+// another function is missing.
+void LadderReader::subtraction(std::span<const Word> words, Place at) {
+  const Row* row = context_.language.findFunction("SUB");
+  if (builder_.values() == row->info.pins.size()) return function(row, words.subspan(1), at);
+  context_.diagnostics.report(diag::BadOperand, at.range)
+          .note(fmt::format("`SUB` alone is the function SUB {}, which has {} conditions", row->info.number,
+                            row->info.pins.size()))
+      << words[0].text << "a complete statement: the number of a function is missing";
+  builder_.garbage(at);
+  begin(nullptr);
+}
+
+// Parameters as GSK's lists have them, `PRM D10`, are reported once for a function and read without the word.
+std::span<const Word> LadderReader::withoutParameterWord(std::span<const Word> words) {
+  const bool isWord =
+      text::equalsIgnoringCase(words[0].text, "PRM") || text::equalsIgnoringCase(words[0].text, "TABLE");
+  if (!isWord || words.size() != 2 || context_.names.has(words[0].text)) return words;
+  if (!std::exchange(saidForeign_, true) && row_ != nullptr) network::reportUnknownCommand(context_, words);
+  return words.subspan(1);
+}
+
 void LadderReader::function(const Row* row, std::span<const Word> parameters, Place at) {
   if (row != nullptr) context_.analysis.use(frontend::InstructionUse{at.range, &row->info});
   if (row != nullptr && network::isEnd(row->control)) builder_.title({});
   builder_.function(row, at);
+  begin(row);
+  for (const Word& word : parameters) parameter(word);
+}
+
+void LadderReader::begin(const Row* row) {
   inFunction_ = true;
+  saidForeign_ = false;
   row_ = row;
   parameters_ = 0;
   capacity_ = 0;
-  for (const Word& word : parameters) parameter(word);
 }
 
 // All parameters of the row and, after them, the rows of its table; of an unknown function whatever comes.
@@ -259,7 +304,8 @@ bool LadderReader::wantsParameter() const {
 
 // A number or an address, which is a parameter, possibly one too many.
 bool LadderReader::isOperand(const Word& word) const {
-  return network::parseConstant(word.text) || network::splitAddress(context_.language, word.text).has_value();
+  return network::parseConstant(context_.language, word.text) ||
+         network::splitAddress(context_.language, word.text).has_value();
 }
 
 void LadderReader::parameter(const Word& word) {
@@ -276,7 +322,12 @@ void LadderReader::parameter(const Word& word) {
 
 void LadderReader::unknown(std::span<const Word> words, Place at) {
   inFunction_ = false;
-  if (words.size() == 1 && isOperand(words[0]))
+  if (words.size() == 2 && text::equalsIgnoringCase(words[1].text, "LBL"))
+    context_.diagnostics.report(diag::UnknownCommand, words[0].range)
+            .note(fmt::format("a label is `{}`, with its number on the next line",
+                              context_.language.callOf(context_.language.rowOf(Control::Lbl))))
+        << words[0].text;
+  else if (words.size() == 1 && isOperand(words[0]))
     context_.diagnostics.report(diag::StrayParameter, at.range) << "a parameter";
   else
     network::reportUnknownCommand(context_, words);
@@ -302,6 +353,7 @@ void MnemonicFile::read(Context& context, network::UnitAssembler& units) const {
   for (const Section& section : sections_) {
     if (section.kind == Section::Kind::Unknown)
       context.diagnostics.report(diag::UnknownSection, section.range) << section.code;
+    if (section.kind == Section::Kind::Outside) context.diagnostics.report(diag::TextOutsideSection, section.range);
     if (section.kind != Section::Kind::Ladder) continue;
     LadderReader reader(context, file(), units);
     eachLine(context.sources, file(), section, [&](const SourceLine& line) { reader.line(line); });

@@ -35,17 +35,15 @@ public:
   void line(const SourceLine& line) {
     const std::string_view text = text::trimmed(line.text);
     if (text == "%") return end(line.number);
-    if (!text.starts_with("%@")) return;
+    const size_t at = static_cast<size_t>(text.data() - line.text.data());
+    const SourceRange range = line.range(at, at + text.size());
+    if (!text.starts_with("%@")) return otherLine(text, range, line.number);
     end(line.number);
     const std::string code = text::upper(text);
     sawCode_ = true;
+    isOutside_ = false;
     if (code.starts_with("%@A") || code.starts_with("%@E")) return;
-    const size_t at = static_cast<size_t>(text.data() - line.text.data());
-    sections_.push_back({.kind = kindOf(code),
-                         .code = text,
-                         .range = line.range(at, at + text.size()),
-                         .first = line.number + 1,
-                         .last = 0});
+    sections_.push_back({.kind = kindOf(code), .code = text, .range = range, .first = line.number + 1, .last = 0});
     open_ = true;
   }
 
@@ -56,6 +54,12 @@ public:
   }
 
 private:
+  // Text outside begins at a line that is not a comment, and ends where the next section begins.
+  void otherLine(std::string_view text, SourceRange range, uint32_t number) {
+    if (open_ || !sawCode_ || isOutside_ || text.empty() || text[0] == ';') return;
+    isOutside_ = true;
+    sections_.push_back({.kind = Kind::Outside, .range = range, .first = number, .last = number + 1});
+  }
   void end(uint32_t line) {
     if (open_) sections_.back().last = line;
     open_ = false;
@@ -64,6 +68,7 @@ private:
   std::vector<Section> sections_;
   bool open_ = false;
   bool sawCode_ = false;
+  bool isOutside_ = false; // the text since the last section has been noted
 };
 
 } // namespace

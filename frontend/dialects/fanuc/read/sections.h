@@ -10,11 +10,11 @@
 namespace rung::frontend::fanuc {
 
 struct Section {
-  enum class Kind : uint8_t { Parameters, Title, Symbols, SymbolTable, Ladder, Messages, Modules, Unknown };
-  Kind kind = Kind::Unknown;
-  std::string_view code; // such as "%@2-C"
-  SourceRange range;     // of the line with the code
-  uint32_t first = 0;    // its lines, without those with its code and its end: first to last - 1
+  enum class Kind : uint8_t { Parameters, Title, Symbols, SymbolTable, Ladder, Messages, Modules, Unknown, Outside };
+  Kind kind = Kind::Unknown; // Outside: text between sections or after the last one
+  std::string_view code;     // such as "%@2-C"
+  SourceRange range;         // of the line with the code; of Outside its first line
+  uint32_t first = 0;        // its lines, without those with its code and its end: first to last - 1
   uint32_t last = 0;
 };
 

@@ -32,13 +32,18 @@ inline constexpr frontend::ForeignWord kForeignWords[] = {
     {"STN", "WRT.NOT", true},
     // another form
     {"CMP", kCompares, false},
+    {"CONST", "constants are numbers; a symbol of an address is in a section %@2", false},
     {"CTU", kCounter, false},
+    {"DIALECT", "left out: the name of the file says it", false},
     {"FUNC", "SUB with the number of a function, or its name; parameters follow on lines of their own", false},
     {"LD", kBegins, false},
     {"LDI", kBeginsClosed, false},
     {"LDN", kBeginsClosed, false},
     {"PLF", kFallingEdge, false},
     {"PLS", kRisingEdge, false},
+    {"PRM", "the parameter alone, on a line after its function", false},
+    {"SYMBOL", "a line with an address and its symbol, in a section %@2", false},
+    {"TABLE", "the value alone, on a line after the parameters", false},
     {"TOF", kOffDelay, false},
     {"TON", kOnDelay, false},
 };

@@ -80,15 +80,20 @@ inline constexpr Row kBcdRows[] = {
           17, "DSCH", "search in a data table, BCD", "6.6, medium",
           "result := number of the lowest element that holds the searched data, in BCD, W1=0; W1=1 when there is none.",
           "RD R0.0\nRD.STK R0.1\nRD.STK X9.0\nSUB 17\n10\nD20\nD11\nD13\nWRT Y9.0"),
-    rowOf(
-        withOutput(
-            "data tables", {kByt, PinInfo{.name = "RW", .doc = "0 read from the table, 1 write into it"}, kRst, kAct},
-            {kElements, inout("table", kinds::kDigits), inout("data", kinds::kDigits), in("index", kinds::kDigits)},
-            &lowerBcdIndexedMove),
-        18, "XMOV", "indexed transfer, BCD", "6.6, medium",
-        "Moves data between a place and the element of a table whose number, in BCD, is the index. W1=1 when the index "
-        "is not below the number of elements; nothing is moved then.",
-        "RD R0.0\nRD.STK R0.1\nRD.STK R0.2\nRD.STK X9.0\nSUB 18\n10\nD20\nD11\nD13\nWRT Y9.0"),
+    [] {
+      Row row = rowOf(
+          withOutput(
+              "data tables", {kByt, PinInfo{.name = "RW", .doc = "0 read from the table, 1 write into it"}, kRst, kAct},
+              {kElements, inout("table", kinds::kDigits), inout("data", kinds::kDigits), in("index", kinds::kDigits)},
+              &lowerBcdIndexedMove),
+          18, "XMOV", "indexed transfer, BCD", "6.6, medium",
+          "Moves data between a place and the element of a table whose number, in BCD, is the index. W1=1 when the "
+          "index is not below the number of elements; nothing is moved then. With R9091.0 or R9091.1 as RW what is "
+          "only read may be in X or F.",
+          "RD R0.0\nRD.STK R0.1\nRD.STK R0.2\nRD.STK X9.0\nSUB 18\n10\nD20\nD11\nD13\nWRT Y9.0");
+      row.direction = 1;
+      return row;
+    }(),
     bcdArithmeticRow(19, "ADD", "addition, BCD",
                      "result := first + second. W1=1 when the sum has too many digits; its low digits are stored.",
                      "RD R0.0\nRD.STK R0.1\nRD.STK X9.0\nSUB 19\n0\nD10\n25\nD12\nWRT Y9.0", frontend::kAdd),

@@ -34,6 +34,7 @@ PmcMessages::Places::Places(const rung_program& program, pmc::MessageRule rule)
   if (rule == pmc::MessageRule::ByTextList) readTexts(program);
   if (area == RUNG_NONE) return;
   const rung_space& space = program.spaces[area];
+  if (rule == pmc::MessageRule::ByTextList) findStates(space);
   bytes = std::min(space.byte_count, kMostBytes);
   for (const rung_range& range : std::span(space.ranges, space.range_count)) {
     if (range.first_byte >= bytes) break;
@@ -44,6 +45,12 @@ PmcMessages::Places::Places(const rung_program& program, pmc::MessageRule rule)
     for (uint32_t i = 0; i < pieces.back().size(); ++i)
       written.push_back(runtime::writtenBits(program, range.offset + i));
   }
+}
+
+void PmcMessages::Places::findStates(const rung_space& space) {
+  for (const rung_range& range : std::span(space.ranges, space.range_count))
+    for (uint32_t byte = range.first_byte; byte < range.first_byte + range.byte_count; ++byte)
+      if (byte >= kFirstState && byte - kFirstState < kMostBytes) states.push_back(byte - kFirstState);
 }
 
 void PmcMessages::Places::readTexts(const rung_program& program) {

@@ -44,6 +44,18 @@ bool PmcMessages::nextChange(const runtime::Instance& instance, rung_message& me
   return false;
 }
 
+void PmcMessages::writeStates(const runtime::Instance& instance) const noexcept {
+  if (places_ == nullptr || places_->states.empty()) return;
+  const bool display = displays(instance);
+  const uint32_t moved = shift(instance);
+  for (const uint32_t byte : places_->states) {
+    uint8_t shown = display ? instance.memory().readByte(places_->area, byte) : uint8_t{0};
+    for (uint32_t bit = 0; bit < 8; ++bit)
+      if (known(8 * byte + bit + 1, moved).number == 0) shown = static_cast<uint8_t>(shown & ~(1u << bit));
+    instance.memory().writeByte(places_->area, kFirstState + byte, shown);
+  }
+}
+
 bool PmcMessages::shows(const runtime::Instance& instance, std::span<const ShownMessage> these) const noexcept {
   size_t count = 0;
   const bool same = forShown(instance, [&](uint32_t key, uint32_t number) {

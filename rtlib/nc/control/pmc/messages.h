@@ -41,9 +41,11 @@ public:
     std::vector<uint32_t> numbers; // of texts, by the text's number in the program's table - 1; 0: there is none
     uint32_t display = RUNG_NONE;  // @DISPB
     uint32_t shift = RUNG_NONE;    // K, if it has the message shift
+    std::vector<uint32_t> states;  // the bytes of the A area whose state the program reads
 
   private:
     void readTexts(const rung_program& program);
+    void findStates(const rung_space& space);
   };
 
   explicit PmcMessages(pmc::MessageRule rule) : rule_(rule) {}
@@ -51,6 +53,9 @@ public:
   void powerOn();
   // Another program has taken over; messages that none of its rungs can end are ended. The places outlive the use.
   void use(uint8_t* block, const Places& places) noexcept;
+
+  // By a text list only: the bits of A from byte kFirstState on say which messages are shown.
+  void writeStates(const runtime::Instance& instance) const noexcept;
 
   // As in Control.
   bool shows(const runtime::Instance& instance, std::span<const ShownMessage> these) const noexcept;
@@ -63,6 +68,7 @@ public:
   bool showsAlarm(const runtime::Instance& instance) const noexcept;
 
 private:
+  static constexpr uint32_t kFirstState = 9000;
   // FANUC's kinds of messages by number: alarms, operator messages, and from kFirstPlain on those without a number.
   static constexpr uint32_t kFirstAlarm = 1000, kFirstMessage = 2000, kFirstPlain = 2100;
   static bool isAlarm(uint32_t number) { return number >= kFirstAlarm && number < kFirstMessage; }

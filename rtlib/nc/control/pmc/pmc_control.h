@@ -45,6 +45,7 @@ public:
   void beforeSlice(runtime::Instance& instance) override {
     if (axes_.any() && io_) axes_.step(*io_, instance.services(), served_);
   }
+  void afterSlice(runtime::Instance& instance) override { messages_.writeStates(instance); }
   // Window functions end with the dialect's code for "not provided".
   core::ServiceReply refuse(const core::ServiceRequest& request) const noexcept override;
   core::ServiceName ownService() const override {

@@ -7,6 +7,7 @@ import sys
 import unittest
 from pathlib import Path
 
+from fanuc_rows import FanucRows
 from nct_rows import NctRows
 from raised_codes import RaisedCodes, listed
 from technol_errors import TechnolErrors

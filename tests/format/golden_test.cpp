@@ -10,7 +10,7 @@ namespace rung {
 namespace {
 
 TEST(FormatGolden, AllSources) {
-  test::Golden golden("tests/golden/format", {".lad", ".pmc", ".plc"});
+  test::Golden golden("tests/golden/format", {".lad", ".mne", ".pmc", ".plc"});
   for (const std::filesystem::path& input : golden.inputs()) {
     SCOPED_TRACE(input);
     SourceManager sources;

@@ -22,8 +22,8 @@ std::string contentsOf(const fs::path& path) {
 
 bool isSource(const fs::path& path) {
   const std::string extension = path.extension();
-  return extension == ".lad" || extension == ".pmc" || extension == ".plc" || extension == ".inc" ||
-         extension == ".INC";
+  return extension == ".lad" || extension == ".mne" || extension == ".pmc" || extension == ".plc" ||
+         extension == ".inc" || extension == ".INC";
 }
 
 // The sources of a folder, and the same laid out, everything on the line that it was on.
@@ -51,9 +51,9 @@ private:
     const auto formatted = format(path, original);
     if (!formatted) return;
     EXPECT_EQ(format(path, *formatted), formatted) << "it is not laid out the same way twice";
-    const auto lines = test::onItsLines(*formatted, original);
+    const auto lines = test::onItsLines(asRead(*formatted), original_[path]);
     EXPECT_TRUE(lines) << *formatted;
-    if (lines) formatted_[path] = asRead(*lines);
+    if (lines) formatted_[path] = *lines;
   }
 
   std::optional<std::string> format(const fs::path& path, const std::string& text) {
@@ -124,7 +124,7 @@ TEST_P(FormattedScenarios, AreTheSamePrograms) {
   EXPECT_GE(compiled, 100) << "hardly a program is read as its scenario says";
 }
 
-INSTANTIATE_TEST_SUITE_P(Dialects, FormattedScenarios, testing::Values("gsk", "nct", "technol"),
+INSTANTIATE_TEST_SUITE_P(Dialects, FormattedScenarios, testing::Values("fanuc", "gsk", "nct", "technol"),
                          [](const auto& tested) { return std::string(tested.param); });
 
 TEST(FormattedExamples, AreTheSamePrograms) {

@@ -34,13 +34,16 @@ std::optional<std::string> firstCountDifference(const runtime::Instance& a, cons
 
 } // namespace
 
-std::optional<std::string> firstDisagreement(runtime::Engine& first, runtime::Engine& second, int scans) {
+std::optional<std::string> firstDisagreement(runtime::Engine& first, runtime::Engine& second, int scans,
+                                             const BeforeScan& before) {
   Responder answers;
   const auto a = std::make_unique<runtime::Instance>(first, &answers);
   const auto b = std::make_unique<runtime::Instance>(second, &answers);
   for (int scan = 1; scan <= scans; ++scan) {
-    a->scan();
-    b->scan();
+    for (runtime::Instance* instance : {a.get(), b.get()}) {
+      if (before) before(*instance, scan);
+      instance->scan();
+    }
     auto difference = runtime::firstDifference(*a, *b, nc::describe);
     if (!difference) difference = firstCountDifference(*a, *b);
     if (difference) return fmt::format("scan {}: {} against {}: {}", scan, first.name(), second.name(), *difference);

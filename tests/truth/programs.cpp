@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "ir/support/diag_render.h"
+#include "tests/unit/fanuc/program_generator.h"
 #include "tests/unit/gsk/program_generator.h"
 #include "tools/bench/generated/form.h"
 
@@ -29,8 +30,10 @@ bool isLarge() {
 
 std::vector<Text> drawnTexts() {
   std::vector<Text> texts;
-  for (uint64_t seed = 1; seed <= (isLarge() ? 400u : 12u); ++seed)
+  for (uint64_t seed = 1; seed <= (isLarge() ? 400u : 12u); ++seed) {
     texts.push_back({fmt::format("drawn-{}.pmc", seed), frontend::gsk::test::ProgramGenerator(seed).list()});
+    texts.push_back({fmt::format("drawn-{}.mne", seed), frontend::fanuc::test::ProgramGenerator(seed).list()});
+  }
   const std::vector<uint32_t> sizes = isLarge() ? std::vector<uint32_t>{13, 40, 100, 200} : std::vector<uint32_t>{20};
   for (const std::string_view dialect : bench::kDialects)
     for (const bench::Kind kind : kKinds)

@@ -39,7 +39,8 @@ public:
   std::string take() { return page_.take(); }
 
 private:
-  // A command or a function in capitals, with its operands after it; anything else with single blanks.
+  // A command or a function in capitals, with its operands after it, and the SP after a name; anything else with single
+  // blanks.
   std::string statement() const {
     std::string text;
     size_t first = 0;
@@ -48,10 +49,11 @@ private:
       const std::string_view word = words_.words[i].text;
       const bool isName = i == first && (isCommand(word) || language_.findFunction(word) != nullptr);
       if (!text.empty()) text += ' ';
+      const bool isSp = i == first + 1 && i + 1 == words_.words.size() && text::equalsIgnoringCase(word, "SP");
       if (isName && i + 1 < words_.words.size())
         text += fmt::format("{:<{}}", text::upper(word), kOperandColumn - 1);
       else
-        text += isName ? text::upper(word) : std::string(word);
+        text += isName || isSp ? text::upper(word) : std::string(word);
     }
     return text;
   }

@@ -59,7 +59,7 @@ private:
 };
 
 TEST(SemaGolden, Names) {
-  test::Golden golden("tests/golden/sema", {".lad", ".plc", ".pmc"});
+  test::Golden golden("tests/golden/sema", {".lad", ".mne", ".plc", ".pmc"});
   for (const std::filesystem::path& input : golden.inputs()) {
     SourceManager sources;
     Diagnostics diagnostics;

@@ -1,0 +1,153 @@
+#!/usr/bin/env python3
+"""The commands of rungc on a mnemonic file of FANUC: symbols without regard to case, parameters on lines of their own,
+sections. fanuc_test.py RUNGC"""
+import json
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from patience import patience
+
+RUNGC = None
+OK, WRONG = 0, 1
+
+LADDER = """%@0
+4 0i-F PMC(MEM-B,FLT)
+%
+%@2-C
+X9.0 START
+$1 '' 'start key'
+X9.1 STOP
+R1.0 RUN
+Y9.0 LAMP
+P1 COUNT
+%
+%@3
+SUB 1
+(* the latch *)
+RD start
+OR RUN
+AND.NOT STOP
+WRT RUN
+(* the lamp *)
+RD RUN
+TMRB 1 16
+WRT LAMP
+RD RUN
+CALL Count
+SUB 2
+COUNT SP
+RD START
+SUB 57
+1
+WRT R2.0
+RD R9091.0
+RD.STK R2.0
+SUB 36
+2
+D0
+1
+D0
+WRT R2.1
+SPE
+SUB 64
+%
+"""
+LATCH, TIMER, CALL, EDGE, SUM = 15, 20, 23, 27, 31  # lines of the networks
+SCENARIO = "program lamp.mne\nscan\nexpect LAMP 0\nset START 1\nscan 4\nexpect LAMP 1\nexpect D0:2 1\n"
+
+
+class Fanuc(unittest.TestCase):
+    maxDiff = None
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+        self.write("lamp.mne", LADDER)
+        self.write("lamp.scn", SCENARIO)
+
+    def write(self, name, text, encoding="utf-8"):
+        (self.folder / name).write_bytes(text.encode(encoding))
+
+    def run_rungc(self, *args, status=OK):
+        done = subprocess.run([Path(RUNGC).resolve(), *args], cwd=self.folder, capture_output=True, timeout=patience(), check=False)
+        self.assertEqual(done.returncode, status, done.stderr)
+        return done.stdout.decode(), done.stderr.decode()
+
+    def test_check(self):
+        self.assertIn("lamp.mne: 5 rungs, no warnings", self.run_rungc("check", "lamp.mne")[0])
+        self.write("bad.mne", LADDER.replace("WRT LAMP", "WRT LAMPE"))
+        said = self.run_rungc("check", "bad.mne", status=WRONG)[1]
+        self.assertIn("bad.mne:22:5: error: 'LAMPE' is not declared [undefined-symbol]", said)
+        self.assertIn("did you mean LAMP?", said)
+        report, = json.loads(self.run_rungc("check", "--json", "bad.mne", status=WRONG)[0])
+        self.assertEqual((report["code"], report["line"], report["column"]), ("undefined-symbol", 22, 5))
+
+    def test_utf_16_as_the_control_s_tools_write_it(self):
+        for name, text in (("mark.mne", "\ufeff" + LADDER), ("bare.mne", LADDER)):
+            self.write(name, text.replace("\n", "\r\n"), "utf-16-le")
+            self.assertIn("5 rungs, no warnings", self.run_rungc("check", name)[0])
+
+    def test_the_whole_scenario_on_all_engines(self):
+        self.assertIn("1 passed, 0 failed", self.run_rungc("test", "--engine", "all", "lamp.scn")[0])
+
+    def test_xref_by_symbols_and_places(self):
+        table = self.run_rungc("xref", "lamp.mne")[0]
+        self.assertIn(f'RUN (R1.0)\n  written  rung 1 "the latch", lamp.mne:{LATCH}\n', table)
+        self.assertIn(f"D0:2\n  written  rung 5, lamp.mne:{SUM}\n  read     rung 5, lamp.mne:{SUM}\n", table)
+        for place in ("R1.0", "RUN"):
+            entry, = json.loads(self.run_rungc("xref", "--format", "json", "lamp.mne", "--place", place)[0])
+            self.assertEqual((entry["name"], entry["address"]), ("RUN", "R1.0"))
+            self.assertEqual([use["line"] for use in entry["read"]], [LATCH, TIMER, CALL])
+
+    def test_explain_what_is_at_a_position(self):
+        said = self.run_rungc("explain", f"lamp.mne:{LATCH}:4")[0]
+        for part in ("start: read here", "start key", "declared at lamp.mne:5:6", "START (X9.0)"):
+            self.assertIn(part, said)
+        self.assertTrue(self.run_rungc("explain", "lamp.mne:21:1")[0].startswith("[fanuc] TMRB (function 24): on-delay timer"))
+        self.assertTrue(self.run_rungc("explain", "lamp.mne:28:5")[0].startswith("[fanuc] DIFU (function 57): rising edge"))
+        self.assertIn("[fanuc] *ESP: G8.4", self.run_rungc("explain", "G8.4")[0])
+
+    def test_coverage_names_commands(self):
+        said = self.run_rungc("test", "--coverage", "lamp.scn")[0]
+        self.assertRegex(said, r"rungs run +5 of 5 ")
+        for part in ("AND.NOT STOP (line 17) never open", "DIFU 1 (line 28) never off", "WRT R2.1 (line 38) never on"):
+            self.assertIn(part, said)
+
+    def test_diff_shows_changed_networks(self):
+        self.write("new.mne", LADDER.replace("AND.NOT STOP", "AND STOP").replace("TMRB 1 16", "TMRB 1 24"))
+        said = self.run_rungc("diff", "lamp.mne", "new.mne", status=WRONG)[0]
+        self.assertIn(f'changed rung 1 "the latch", lamp.mne:{LATCH} to rung 1 "the latch", new.mne:{LATCH}\n', said)
+        self.assertIn("  - TMRB 1 16\n", said)
+        self.assertIn("  + TMRB 1 24\n", said)
+        self.assertIn("rungs: 2 changed, 0 added, 0 removed, 0 moved, 3 unchanged", said)
+        self.write("case.mne", LADDER.replace("WRT LAMP", "wrt lamp").replace("SUB 57", "DIFU"))
+        self.assertIn("5 unchanged", self.run_rungc("diff", "lamp.mne", "case.mne")[0])
+
+    def test_wcet_and_profile_name_networks(self):
+        said = self.run_rungc("wcet", "lamp.mne")[0]
+        self.assertRegex(said, r"LEVEL2: at most \d+ steps of a budget of 10000000")
+        self.assertIn("LEVEL2: rungs 1-5", said)
+        said = self.run_rungc("profile", "lamp.scn")[0]
+        self.assertIn("5 of 5 rungs ran", said)
+        self.assertRegex(said, rf"lamp\.mne:{TIMER} +the lamp")
+
+    def test_format(self):
+        self.write("wild.mne", LADDER.replace("RD RUN", "  rd   RUN").replace("COUNT SP", " COUNT  sp"))
+        self.assertEqual(self.run_rungc("format", "--check", "wild.mne", status=WRONG)[0], "wild.mne\n")
+        self.run_rungc("format", "wild.mne", "lamp.mne")
+        self.assertEqual((self.folder / "wild.mne").read_text(), (self.folder / "lamp.mne").read_text())
+        self.assertIn("RD         RUN\nTMRB       1 16\nWRT        LAMP\n", (self.folder / "wild.mne").read_text())
+
+    def test_commands_that_need_no_file(self):
+        self.assertTrue(self.run_rungc("doc", "fanuc")[0].startswith("# "))
+        self.assertIn("XMOVB", self.run_rungc("explain", "fanuc")[0])
+
+
+if __name__ == "__main__":
+    RUNGC = sys.argv.pop(1)
+    unittest.main()

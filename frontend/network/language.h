@@ -43,8 +43,8 @@ constexpr bool isEnd(Control control) { return control == Control::LevelEnd || c
 
 struct Address;
 struct Context;
-struct Function;
 struct Language;
+struct Network;
 class UnitAssembler;
 
 // An index in Language::areas.
@@ -67,8 +67,8 @@ struct Row {
   uint8_t capacityAt = 1;   // of a row with a table: the parameter that is the number of its rows, 0 for 100
   uint32_t recordBytes = 0; // for an operand of kind Record
   bool built = true;        // otherwise it is known, and refused by name
-  // Reports operands that are wrong although their kinds and ranges are right; may be null.
-  void (*check)(const Function& function, Diagnostics& diagnostics) = nullptr;
+  // Reports what is wrong although the kinds and ranges of the operands are right; may be null.
+  void (*check)(Context& context, const Network& network) = nullptr;
   int8_t direction = -1;    // the condition that is 0 to read a table and 1 to write it; what is read may be an input
 };
 

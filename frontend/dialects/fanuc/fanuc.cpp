@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include "frontend/dialects/fanuc/check/functions.h"
 #include "frontend/dialects/fanuc/config.h"
 #include "frontend/dialects/fanuc/language.h"
 #include "frontend/dialects/fanuc/lower/lower.h"
@@ -58,6 +57,11 @@ MnemonicFiles opened(const SourceManager& sources, std::span<const FileId> files
 
 std::string upperCase(std::string_view name) { return text::upper(name); } // F4
 
+bool isSimulated(const frontend::CompileOptions& options) {
+  const auto nc = options.config.find("nc");
+  return nc != options.config.end() && nc->second == "simulated";
+}
+
 class FanucProgram : public frontend::CheckedProgram {
 public:
   FanucProgram(SourceManager& sources, std::span<const FileId> files, const frontend::CompileOptions& options,
@@ -66,7 +70,8 @@ public:
         context_{.language = languageOf(configuredPmc(options_, sources, mnemonics_, diagnostics)),
                  .sources = sources,
                  .diagnostics = diagnostics,
-                 .names = network::Names(upperCase)},
+                 .names = network::Names(upperCase),
+                 .isSimulated = isSimulated(options_)},
         program_(context_.language) {}
 
   void check() {
@@ -78,7 +83,6 @@ public:
     const bool understood = reading.read();
     network::analyse(context_, program_, !understood);
     checkCounters();
-    checkFunctions(context_, program_, isSimulated());
     messages_ = readMessages(context_.language, context_.sources, mnemonics_, context_.diagnostics);
     context_.analysis.settle();
   }
@@ -95,7 +99,6 @@ public:
   }
 
 private:
-  bool isSimulated() const;
   bool checkFiles();
   void checkCounters();
 
@@ -106,11 +109,6 @@ private:
   network::Program program_;
   std::vector<Message> messages_;
 };
-
-bool FanucProgram::isSimulated() const {
-  const auto nc = options_.config.find("nc");
-  return nc != options_.config.end() && nc->second == "simulated";
-}
 
 // Reports files that are something else: LADDER-III's own form, a memory card, parameters of the control.
 bool FanucProgram::checkFiles() {

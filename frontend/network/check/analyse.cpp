@@ -367,7 +367,7 @@ void Analysis::checkNumbers() {
 void Analysis::checkOperands() {
   eachNetwork([&](uint32_t, uint32_t, Network& network) {
     const Row* row = network.function.row;
-    if (row != nullptr && row->check != nullptr) row->check(network.function, diagnostics_);
+    if (row != nullptr && row->check != nullptr) row->check(context_, network);
   });
 }
 

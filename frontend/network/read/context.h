@@ -81,6 +81,7 @@ struct Context {
   Diagnostics& diagnostics;
   Names names = {};
   uint32_t steps = 0;
+  bool isSimulated = false; // the program runs beside the simulated CNC
   // Called with what operands name: a bit, or `length` bytes from an address on. May be empty.
   std::function<void(const Word& word, const Address& address, uint32_t length)> onPlace = {};
   Gaps gaps = {};

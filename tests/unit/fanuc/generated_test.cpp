@@ -1,10 +1,11 @@
 // Generated programs: they compile, and to the same when they are laid out.
 #include <gtest/gtest.h>
 
+#include "frontend/dialects/fanuc/fanuc.h"
+#include "ir/support/diag_render.h"
 #include "ir/verify/verify.h"
 #include "tests/support/formatting.h"
 #include "tests/support/long_run.h"
-#include "tests/unit/fanuc/compile.h"
 #include "tests/unit/fanuc/program_generator.h"
 
 namespace rung::frontend::fanuc::test {

@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include "frontend/dialects/fanuc/language.h"
-#include "ir/support/diag/pmc.h"
 #include "ir/support/diag/operand.h"
+#include "ir/support/diag/pmc.h"
 
 namespace rung::frontend::fanuc {
 namespace {
@@ -17,21 +17,43 @@ const network::Param* goodParam(const network::Function& function, size_t i) {
   return i < function.params.size() && !function.params[i].bad ? &function.params[i] : nullptr;
 }
 
-// A group of AXCTL has its path in the thousands; the simulated CNC has path 1.
-void checkPath(network::Context& context, const network::Function& function) {
-  const network::Param* group = goodParam(function, 0);
-  if (group == nullptr || group->value < 1000) return;
-  context.diagnostics.report(diag::NotSimulated, group->range)
-      << fmt::format("group {}", group->value) << group->value / 1000 + 1;
+constexpr int64_t kGroups = 4;          // of a path (inventory §6.10)
+constexpr int64_t kGroupsOfPath = 1000; // path p adds 1000(p-1) to a group
+
+} // namespace
+
+// The simulated CNC has path 1.
+void checkAxisGroup(network::Context& context, const network::Network& network) {
+  const network::Param* group = goodParam(network.function, 0);
+  if (group == nullptr) return;
+  const int64_t number = group->value % kGroupsOfPath;
+  if (number < 1 || number > kGroups)
+    context.diagnostics.report(diag::ParameterOutOfRange, group->range)
+        << group->value << "1 to 4, with path - 1 in the thousands" << network.function.row->info.mnemonic;
+  else if (context.isSimulated && group->value >= kGroupsOfPath)
+    context.diagnostics.report(diag::NotSimulated, group->range)
+        << fmt::format("group {}", group->value) << group->value / kGroupsOfPath + 1;
+}
+
+// NNDD: the digit that is not compared is 0 (inventory §6.4).
+void checkDecodedDigits(network::Context& context, const network::Network& network) {
+  const network::Param* decoded = goodParam(network.function, 1);
+  if (decoded == nullptr) return;
+  const int64_t digits = decoded->value / 100, which = decoded->value % 100;
+  const bool isLow = which == 1 && digits < 10, isHigh = which == 10 && digits % 10 == 0;
+  if (isLow || isHigh || which == 11) return;
+  context.diagnostics.report(diag::ParameterOutOfRange, decoded->range)
+      << decoded->value << "NNDD with DD = 01 (low digit, the other one 0 in NN), 10 (high) or 11 (both)"
+      << network.function.row->info.mnemonic;
 }
 
 // Of a fixed timer; older types have less than the row says (inventory §6.2).
-void checkPreset(network::Context& context, const network::Function& function) {
-  const network::Param* preset = goodParam(function, 1);
+void checkPreset(network::Context& context, const network::Network& network) {
+  const network::Param* preset = goodParam(network.function, 1);
   const int64_t most = limitsOf(pmcOf(context.language)).mostPresetMs();
   if (preset == nullptr || preset->value <= most) return;
   context.diagnostics.report(diag::ParameterOutOfRange, preset->range)
-      << preset->value << fmt::format("0 to {}", most) << function.row->info.mnemonic;
+      << preset->value << fmt::format("0 to {}", most) << network.function.row->info.mnemonic;
 }
 
 // A table and the data beside it may be inputs where a constant condition says that they are only read.
@@ -59,20 +81,6 @@ void checkCut(network::Context& context, const network::Network& network) {
   if (constantCondition(context.language, network, 0) != false) return;
   if (!function.table.empty()) return cut(std::ranges::max(function.table), function.range);
   if (const network::Param* constant = goodParam(function, 0)) cut(constant->value, constant->range);
-}
-
-} // namespace
-
-void checkFunctions(network::Context& context, const network::Program& program, bool isSimulated) {
-  for (const network::Unit& unit : program.units)
-    for (const network::Network& network : unit.networks) {
-      if (network.function.row == nullptr) continue;
-      const std::string_view mnemonic = network.function.row->info.mnemonic;
-      if (mnemonic == "AXCTL" && isSimulated) checkPath(context, network.function);
-      if (mnemonic == "TMRB" || mnemonic == "TMRBF") checkPreset(context, network.function);
-      if (mnemonic == "NUME" || mnemonic == "COD") checkCut(context, network);
-      if (network.function.row->direction >= 0) checkDirection(context, network);
-    }
 }
 
 } // namespace rung::frontend::fanuc

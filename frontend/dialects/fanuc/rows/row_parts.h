@@ -3,7 +3,7 @@
 #pragma once
 #include <string_view>
 
-#include "frontend/dialects/fanuc/check/operands.h"
+#include "frontend/dialects/fanuc/check/functions.h"
 #include "frontend/dialects/fanuc/lower/lower.h"
 #include "frontend/dialects/fanuc/rows/instructions.h"
 #include "frontend/dialects/fanuc/rows/operand_kinds.h"
@@ -41,9 +41,14 @@ constexpr Row withTable(Row row) {
   row.hasTable = true;
   return row;
 }
-constexpr Row withCheck(Row row, void (*check)(const network::Function& function, Diagnostics& diagnostics)) {
+constexpr Row withCheck(Row row, void (*check)(network::Context& context, const network::Network& network)) {
   row.check = check;
   return row;
+}
+// Moves between a table and a place; the condition with this index is 0 to read the table and 1 to write it.
+constexpr Row withDirection(Row row, int8_t condition) {
+  row.direction = condition;
+  return withCheck(row, &checkDirection);
 }
 // Numbers of variable timers and counters are as many as their areas hold (inventory §3.3).
 constexpr Row withPlaces(Row row, Row::Places places) {

@@ -48,15 +48,16 @@ inline constexpr Row kBcdRows[] = {
         "As ROTB, with positions in BCD and their number in the program.",
         "RD R0.0\nRD.STK R0.1\nRD.STK R0.2\nRD.STK R0.3\nRD.STK R0.4\nRD.STK X9.0\nSUB 6\n12\nD11\nD13\nD15\nWRT Y9.0"),
     [] {
-      Row row =
-          rowOf(withTable(withOutput("conversion", {kByt, kRst, kAct},
-                                     {number("rows", 0, 99, "0: 100 rows"), in("index", kinds::kByte, "two BCD digits"),
-                                      out("result", kinds::kDigits)},
-                                     &lowerBcdTable)),
-                7, "COD", "code conversion by a table, BCD", "6.5, medium",
-                "result := row `index` of the table that follows, the first being number 0; rows are numbers of two "
-                "digits, with BYT=1 of four. W1=1 when the index is past the last row.",
-                "RD R0.0\nRD.STK R0.1\nRD.STK X9.0\nSUB 7\n2\nD10\nD11\n10\n20\nWRT Y9.0");
+      Row row = rowOf(
+          withCheck(withTable(withOutput("conversion", {kByt, kRst, kAct},
+                                         {number("rows", 0, 99, "0: 100 rows"),
+                                          in("index", kinds::kByte, "two BCD digits"), out("result", kinds::kDigits)},
+                                         &lowerBcdTable)),
+                    &checkCut),
+          7, "COD", "code conversion by a table, BCD", "6.5, medium",
+          "result := row `index` of the table that follows, the first being number 0; rows are numbers of two "
+          "digits, with BYT=1 of four. W1=1 when the index is past the last row.",
+          "RD R0.0\nRD.STK R0.1\nRD.STK X9.0\nSUB 7\n2\nD10\nD11\n10\n20\nWRT Y9.0");
       row.capacityAt = 0;
       row.mostRow = 9999;
       return row;
@@ -80,20 +81,18 @@ inline constexpr Row kBcdRows[] = {
           17, "DSCH", "search in a data table, BCD", "6.6, medium",
           "result := number of the lowest element that holds the searched data, in BCD, W1=0; W1=1 when there is none.",
           "RD R0.0\nRD.STK R0.1\nRD.STK X9.0\nSUB 17\n10\nD20\nD11\nD13\nWRT Y9.0"),
-    [] {
-      Row row = rowOf(
-          withOutput(
-              "data tables", {kByt, PinInfo{.name = "RW", .doc = "0 read from the table, 1 write into it"}, kRst, kAct},
-              {kElements, inout("table", kinds::kDigits), inout("data", kinds::kDigits), in("index", kinds::kDigits)},
-              &lowerBcdIndexedMove),
+    rowOf(withDirection(
+              withOutput("data tables",
+                         {kByt, PinInfo{.name = "RW", .doc = "0 read from the table, 1 write into it"}, kRst, kAct},
+                         {kElements, inout("table", kinds::kDigits), inout("data", kinds::kDigits),
+                          in("index", kinds::kDigits)},
+                         &lowerBcdIndexedMove),
+              1),
           18, "XMOV", "indexed transfer, BCD", "6.6, medium",
           "Moves data between a place and the element of a table whose number, in BCD, is the index. W1=1 when the "
           "index is not below the number of elements; nothing is moved then. With R9091.0 or R9091.1 as RW what is "
           "only read may be in X or F.",
-          "RD R0.0\nRD.STK R0.1\nRD.STK R0.2\nRD.STK X9.0\nSUB 18\n10\nD20\nD11\nD13\nWRT Y9.0");
-      row.direction = 1;
-      return row;
-    }(),
+          "RD R0.0\nRD.STK R0.1\nRD.STK R0.2\nRD.STK X9.0\nSUB 18\n10\nD20\nD11\nD13\nWRT Y9.0"),
     bcdArithmeticRow(19, "ADD", "addition, BCD",
                      "result := first + second. W1=1 when the sum has too many digits; its low digits are stored.",
                      "RD R0.0\nRD.STK R0.1\nRD.STK X9.0\nSUB 19\n0\nD10\n25\nD12\nWRT Y9.0", frontend::kAdd),
@@ -109,10 +108,12 @@ inline constexpr Row kBcdRows[] = {
         "else.",
         "RD R0.0\nRD.STK R0.1\nRD.STK X9.0\nSUB 22\n0\nD10\n25\nD12\nWRT Y9.0", frontend::kDivide),
     [] {
-      Row row = rowOf(
-          withoutOutput("arithmetic", {number("constant", 0, 9999), out("target", kinds::kDigits)}, &lowerBcdNumber),
-          23, "NUME", "definition of a constant, BCD", "6.8, medium",
-          "target := constant in BCD. ACT=0: nothing happens.", "RD R0.0\nRD.STK X9.0\nSUB 23\n25\nD10");
+      Row row =
+          rowOf(withCheck(withoutOutput("arithmetic", {number("constant", 0, 9999), out("target", kinds::kDigits)},
+                                        &lowerBcdNumber),
+                          &checkCut),
+                23, "NUME", "definition of a constant, BCD", "6.8, medium",
+                "target := constant in BCD. ACT=0: nothing happens.", "RD R0.0\nRD.STK X9.0\nSUB 23\n25\nD10");
       row.info.pins = {kByt, kAct};
       return row;
     }(),

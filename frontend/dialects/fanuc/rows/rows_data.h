@@ -130,21 +130,18 @@ inline constexpr Row kDataRows[] = {
           "result := number of the lowest entry that holds the searched data, W1=0; W1=1 when there is none. As many "
           "entries as given, from 0 on.",
           "RD R0.0\nRD.STK X9.0\nSUB 34\n1\nD10\nD20\nD11\nD12\nWRT Y9.0"),
-    [] {
-      Row row = rowOf(
-          withOutput("data tables",
-                     {PinInfo{.name = "RW", .doc = "0 read from the table, 1 write into it"}, kRst, kAct},
-                     {kFormatN, in("entries", kinds::kData, "number of entries"), inout("table", kinds::kTable),
-                      inout("data", kinds::kElements), in("index", kinds::kData)},
-                     &network::lowerIndexedMove),
+    rowOf(withDirection(
+              withOutput("data tables",
+                         {PinInfo{.name = "RW", .doc = "0 read from the table, 1 write into it"}, kRst, kAct},
+                         {kFormatN, in("entries", kinds::kData, "number of entries"), inout("table", kinds::kTable),
+                          inout("data", kinds::kElements), in("index", kinds::kData)},
+                         &network::lowerIndexedMove),
+              0),
           35, "XMOVB", "indexed transfer", "6.6, high",
           "Moves data between a place and an entry of a table; with nn in the format that entry and those after it. "
           "W1=1 when the index is not below the number of entries; nothing is moved then. With R9091.0 or R9091.1 as "
           "RW what is only read may be in X or F.",
-          "RD R0.0\nRD.STK R0.1\nRD.STK X9.0\nSUB 35\n1\nD10\nD20\nD11\nD12\nWRT Y9.0");
-      row.direction = 0;
-      return row;
-    }(),
+          "RD R0.0\nRD.STK R0.1\nRD.STK X9.0\nSUB 35\n1\nD10\nD20\nD11\nD12\nWRT Y9.0"),
     rowOf(withOutput("rotation",
                      {PinInfo{.name = "RN0", .doc = "positions begin with 0 or 1"},
                       PinInfo{.name = "DIR", .doc = "0 always forward, 1 the shorter way"},

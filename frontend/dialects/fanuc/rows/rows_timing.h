@@ -32,7 +32,7 @@ inline constexpr Row kTimingRows[] = {
           "timers 1-8 and 8 ms from 9 on, unless the word in T9000 says 1 (1 ms), 2 (10 ms), 3 (100 ms), 4 (1 s) or 5 "
           "(1 min). ACT=0: W1=0, the time is forgotten.",
           "RD X9.0\nSUB 3\n1\nWRT Y9.0", kTimerPage),
-    rowOf(timerShape({kTimerNumber, kPresetMs}, Row::Numbers::Timer), 24, "TMRB",
+    rowOf(withCheck(timerShape({kTimerNumber, kPresetMs}, Row::Numbers::Timer), &checkPreset), 24, "TMRB",
           "on-delay timer, preset in the program", "6.2, high",
           "As TMR, but the preset is part of the program, in milliseconds; up to PMC-SB7 in units of 8 ms. Its numbers "
           "are a set of their own.",
@@ -47,8 +47,8 @@ inline constexpr Row kTimingRows[] = {
         "As TMR, but the set value is a word anywhere, which may change at any time. The contents of the register are "
         "not defined.",
         "RD X9.0\nSUB 54\n0\nD10\nR100\nWRT Y9.0", kTimerMemory),
-    rowOf(timerShape({kTimerNumber, kPresetMs}, Row::Numbers::Timer, &lowerOffDelay), 77, "TMRBF",
-          "off-delay timer, preset in the program", "6.2, high",
+    rowOf(withCheck(timerShape({kTimerNumber, kPresetMs}, Row::Numbers::Timer, &lowerOffDelay), &checkPreset), 77,
+          "TMRBF", "off-delay timer, preset in the program", "6.2, high",
           "W1 is 1 while ACT is 1, and for the preset after it has become 0.", "RD X9.0\nSUB 77\n1\n1000\nWRT Y9.0"),
 
     rowOf(

@@ -20,15 +20,15 @@ class Table:
     def __init__(self):
         with (ROOT / "tests/unit/fanuc/instructions.csv").open() as file:
             rows = list(csv.DictReader(file))
-        self.commands = {row["mnemonic"] for row in rows if not row["sub"]}
-        self.names = {row["sub"]: self.name(row) for row in rows if row["sub"]}
+        self.commands = {row["mnemonic"] for row in rows if not row["func_number"]}
+        self.names = {row["func_number"]: self.name(row) for row in rows if row["func_number"]}
         self.functions = {name: name for name in self.names.values()}
         self.built = {self.name(row) for row in rows if row["certainty"] != "low"}
         self.unbuilt = {self.name(row) for row in rows if row["certainty"] == "low"}
         self.plain = {self.name(row) for row in rows if row["parameters"] == "-" and row["conditions"] == "-"}
 
     def name(self, row):
-        return f"SUB {row['sub']}" if row["sub"] and row["mnemonic"] in self.commands else row["mnemonic"]
+        return f"SUB {row['func_number']}" if row["func_number"] and row["mnemonic"] in self.commands else row["mnemonic"]
 
 
 class Program:

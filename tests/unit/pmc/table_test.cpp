@@ -224,7 +224,7 @@ TEST_P(PmcTable, DataEndInTheirArea) {
   for (const LoweredRow* row : plainRows()) {
     for (size_t i = 0; i < row->info.operands.size(); ++i) {
       const OperandKind& kind = kindOf(row->info.operands[i]);
-      const uint32_t bytes = kind.length == Length::OfRow ? row->recordBytes : kind.bytes;
+      const uint32_t bytes = kind.length == Length::OfRow ? row->recordBytes : kind.least != 0 ? kind.least : kind.bytes;
       const bool isFixed = kind.length == Length::OfRow || kind.length == Length::OfKind;
       if (kind.parse != OperandClass::Value || !isFixed || bytes < 2 || (kind.constant && !kind.either)) continue;
       ++tried;

@@ -41,12 +41,24 @@ struct CompileOptions {
   }
 };
 
+namespace network {
+struct Language;
+}
+
+// The source of a program of networks (frontend/network), for conversions and drawings.
+struct NetworkSource {
+  const network::Language& language;
+  std::span<const FileId> files; // decoded
+};
+
 // A program after its check. Its sources must outlive it.
 class CheckedProgram {
 public:
   virtual ~CheckedProgram() = default;
   // Also for a program with errors.
   virtual const Analysis& analysis() const = 0;
+  // Nothing for a program that does not consist of networks.
+  virtual std::optional<NetworkSource> networks() const { return std::nullopt; }
   // May be called once, for a program without errors: a module that passes the verifier. Null if building it finds an
   // error, which is reported.
   virtual std::unique_ptr<ir::Module> build() = 0;

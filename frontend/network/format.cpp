@@ -94,6 +94,10 @@ void ListFormatter::statement(std::span<const Word> words, std::string_view comm
 
 } // namespace
 
+std::string listCommand(const Language& language, const Written& command, bool /*begins*/) {
+  return commandText(language, command.command, command.operand);
+}
+
 std::optional<std::string> formatList(const Language& language, SourceManager& sources, FileId file,
                                       Diagnostics& diagnostics) {
   const size_t before = diagnostics.errorCount();

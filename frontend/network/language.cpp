@@ -22,6 +22,11 @@ const Row* findRow(std::span<const Row* const> rows, IsIt isIt) {
 
 } // namespace
 
+bool Language::isList(std::string_view fileName) const {
+  const std::string lower = text::lower(fileName);
+  return std::ranges::any_of(listExtensions, [&](std::string_view one) { return lower.ends_with(one); });
+}
+
 const Row* Language::findFunction(std::string_view mnemonic) const {
   return findRow(rows, [&](const Row& row) { return text::equalsIgnoringCase(row.info.mnemonic, mnemonic); });
 }

@@ -43,8 +43,10 @@ constexpr bool isEnd(Control control) { return control == Control::LevelEnd || c
 
 struct Address;
 struct Context;
+struct Item;
 struct Language;
 struct Network;
+struct Written;
 class UnitAssembler;
 
 // An index in Language::areas.
@@ -161,17 +163,28 @@ private:
   FileId file_;
 };
 
-// The reader and the formatter of a language's lists.
+// How lists of a language are read, formatted and written.
 struct ListForm {
   std::shared_ptr<const ListFile> (*open)(const SourceManager& sources, FileId file);
   // A formatted list; nothing after errors, which are reported.
   std::optional<std::string> (*format)(const Language& language, SourceManager& sources, FileId file,
                                        Diagnostics& diagnostics);
+  // The line of a command; `begins`: it is the first one of its network.
+  std::string (*command)(const Language& language, const Written& command, bool begins);
+  size_t commentColumn = 0;   // of the comments after commands
+  bool blockComments = false; // comments between networks are in (* *), over lines
+  // Of files with sections, in which declarations are: a file with the comments of `head` and these declarations around
+  // its ladder. Null: lists have their declarations as statements.
+  std::string (*frame)(std::span<const Item> head, std::span<const Item> declarations,
+                       std::string_view ladder) = nullptr;
+  // Declares a name as such a section does, from ladder text. Null: Names::addSymbol.
+  void (*addSymbol)(Context& context, const frontend::Word& name, const frontend::Word& place,
+                    std::string_view comment) = nullptr;
 };
 
 struct Language {
-  std::string_view name;          // of the dialect
-  std::string_view listExtension; // of a file with a command list
+  std::string_view name;                            // of the dialect
+  std::span<const std::string_view> listExtensions; // of files with command lists; the first one is written
   const ListForm& list;
   std::array<std::string_view, kCommandCount> commands; // names of the commands, by Command; "" for one it lacks
   std::span<const Row* const> rows;
@@ -197,6 +210,9 @@ struct Language {
   bool calledByNumber = false;        // how a function is named in advice: SUB 1, not FUNC END1
   // The value of a bit that the control holds constant, nothing for any other bit; null: no bit is constant.
   std::optional<bool> (*constantOf)(const Language& language, const Address& address) = nullptr;
+
+  // Whether a file of this name is a command list.
+  bool isList(std::string_view fileName) const;
 
   constexpr std::string_view nameOf(Command command) const { return commands[static_cast<size_t>(command)]; }
   constexpr const AreaInfo& at(Area area) const { return areas[static_cast<size_t>(area)]; }

@@ -86,7 +86,8 @@ std::string commandText(const Language& language, const Network& network) {
 std::string identityOf(const Language& language, const SourceManager& sources, const Function& function) {
   // An operand with a symbol is identified by the symbol, whose address may change.
   const auto written = [&](const Param& param) {
-    const std::string_view word = text::trimmed(sources.text(param.range));
+    std::string_view word = text::trimmed(sources.text(param.range));
+    if (word.size() > 2 && word.front() == '"') word = word.substr(1, word.size() - 2); // a name in a drawing
     return !param.isAddress || word.empty() || splitAddress(language, word) ? textOf(language, param)
                                                                             : text::upper(word);
   };

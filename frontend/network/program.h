@@ -20,12 +20,14 @@ namespace rung::frontend::network {
 // Comments are without their ';', blanks at their ends and control characters. The title of a network is one of the
 // comments of its gap, as the rule of titles (read/drawn_comments.h) finds it.
 struct Item {
-  enum class Kind : uint8_t { Comment, Blank, Dialect, Symbol, Const, Section };
+  enum class Kind : uint8_t { Comment, Blank, Dialect, Symbol, Const, Message, Data, Section };
   Kind kind = Kind::Comment;
-  std::string text = {};    // of a comment or a section; for a symbol or constant, its name
-  std::string value = {};   // of a symbol or constant
+  std::string text = {};    // of a comment or a section; of a declaration its name, number or section
+  std::string value = {};   // of a declaration
   std::string comment = {}; // after a statement
+  SourceRange range = {};   // of the value of a declaration
 };
+constexpr bool isDeclaration(Item::Kind kind) { return kind >= Item::Kind::Symbol && kind <= Item::Kind::Data; }
 using Gap = std::vector<Item>;
 
 inline constexpr uint32_t kNone = UINT32_MAX;

@@ -25,8 +25,6 @@
 namespace rung::frontend::fanuc {
 namespace {
 
-constexpr std::string_view kExtensions[] = {".mne", ".mnc"};
-
 // Texts and comments of older files are in Latin-1 (F1).
 FileId readable(SourceManager& sources, FileId file) {
   const std::string_view text = sources.text(file);
@@ -55,8 +53,6 @@ MnemonicFiles opened(const SourceManager& sources, std::span<const FileId> files
   return result;
 }
 
-std::string upperCase(std::string_view name) { return text::upper(name); } // F4
-
 bool isSimulated(const frontend::CompileOptions& options) {
   const auto nc = options.config.find("nc");
   return nc != options.config.end() && nc->second == "simulated";
@@ -70,7 +66,6 @@ public:
         context_{.language = languageOf(configuredPmc(options_, sources, mnemonics_, diagnostics)),
                  .sources = sources,
                  .diagnostics = diagnostics,
-                 .names = network::Names(upperCase),
                  .isSimulated = isSimulated(options_)},
         program_(context_.language) {}
 
@@ -88,6 +83,7 @@ public:
   }
 
   const frontend::Analysis& analysis() const override { return context_.analysis; }
+  std::optional<frontend::NetworkSource> networks() const override { return {{context_.language, files_}}; }
 
   std::unique_ptr<ir::Module> build() override {
     const size_t before = context_.diagnostics.errorCount();
@@ -110,15 +106,18 @@ private:
   std::vector<Message> messages_;
 };
 
-// Reports files that are something else: LADDER-III's own form, a memory card, parameters of the control.
+// Reports files that are something else: LADDER-III's own form, a memory card, parameters of the control. The parser of
+// ladder text reports its own.
 bool FanucProgram::checkFiles() {
   bool good = true;
-  for (const FileId file : files_)
+  for (const FileId file : files_) {
+    if (network::isLadder(context_.language, context_.sources, file)) continue;
     if (const std::optional<std::string> foreign = foreignFile(context_.sources.text(file))) {
       context_.diagnostics.report(diag::ForeignFile, context_.sources.range(file, 0, 0))
           << context_.sources.name(file) << *foreign;
       good = false;
     }
+  }
   return good;
 }
 

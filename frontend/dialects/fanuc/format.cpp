@@ -14,9 +14,6 @@
 namespace rung::frontend::fanuc {
 namespace {
 
-constexpr size_t kCommentColumn = 24;
-constexpr size_t kOperandColumn = 11; // after the longest command
-
 class Formatter {
 public:
   Formatter(const network::Language& language, const SourceManager& sources, FileId file)

@@ -59,16 +59,16 @@ std::optional<bool> constantOf(const network::Language& language, const network:
 network::Language make(Pmc pmc) {
   return {
       .name = "fanuc",
-      .listExtension = ".mne",
+      .listExtensions = kExtensions,
       .list = kMnemonicForm,
       .commands = {"RD", "RD.NOT", "AND", "AND.NOT", "OR", "OR.NOT", "RDNT", "OR.STK", "AND.STK", "WRT", "WRT.NOT",
-                   "SET", "RST", "SUB", "", "", "DIALECT", "SYMBOL", "CONST"},
+                   "SET", "RST", "SUB", "", "TABLE", "", "", ""},
       .rows = networkRows(),
       .areas = areasOf(pmc),
       .signals = nc::fanucSignals,
       .levels = kLevels,
       .subprogram = "SUB",
-      .messageTexts = "give the texts of area A in a section %@4 of a mnemonic file",
+      .messageTexts = "the text of a bit of area A is `message A0.0 \"1000 TEXT\"`",
       .maxSteps = 1'000'000,
       .stackDepth = 9, // F12
       .maxCallDepth = 8,
@@ -76,7 +76,7 @@ network::Language make(Pmc pmc) {
       .foreign = kForeignWords,
       .mostNumber = mostNumber,
       .nameMarks = "#*+-/=.&$%!?@",
-      .namesIgnoreCase = true,
+      .namesIgnoreCase = true, // F4
       .hexadecimal = false,
       .cutsConstants = true, // §8.3
       .undeclared = diag::UndefinedSymbol,

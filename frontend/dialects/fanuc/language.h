@@ -5,6 +5,8 @@
 
 namespace rung::frontend::fanuc {
 
+inline constexpr std::string_view kExtensions[] = {".mne", ".mnc"}; // of mnemonic files
+
 const network::Language& languageOf(Pmc pmc);
 // The type of a language made here.
 Pmc pmcOf(const network::Language& language);

@@ -46,6 +46,7 @@ public:
   }
 
   const frontend::Analysis& analysis() const override { return context_.analysis; }
+  std::optional<frontend::NetworkSource> networks() const override { return {{kLanguage, files_}}; }
 
   std::unique_ptr<ir::Module> build() override {
     const size_t before = context_.diagnostics.errorCount();
@@ -84,7 +85,7 @@ constexpr std::string_view kShownSpaces[] = {"A"}; // message requests
 const frontend::Dialect kGsk = {
     .name = "gsk",
     .title = "GSK25iMc / GSK25iTc PLC",
-    .extensions = {&kLanguage.listExtension, 1},
+    .extensions = kExtensions,
     .configKeys = nc::gskConfigKeys(),
     .instructions = instructionInfos(),
     .signals = nc::gskSignals,

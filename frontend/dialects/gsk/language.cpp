@@ -30,7 +30,7 @@ constexpr network::Level kLevels[] = {
 
 const network::Language kLanguage = {
     .name = "gsk",
-    .listExtension = ".pmc",
+    .listExtensions = kExtensions,
     .list = network::kCommandList,
     // man. Part I §4; the last three are Rung's (P12)
     .commands = {"LD", "LDI", "AND", "ANI", "OR", "ORI", "", "ORB", "ANB", "OUT", "OUTI", "SET", "RST", "FUNC", "PRM",

@@ -4,6 +4,7 @@
 
 namespace rung::frontend::gsk {
 
+inline constexpr std::string_view kExtensions[] = {".pmc"}; // of command lists
 extern const network::Language kLanguage;
 
 } // namespace rung::frontend::gsk

@@ -13,6 +13,7 @@
 #include "frontend/dialects/nct/lower/build_module.h"
 #include "frontend/dialects/nct/reference.h"
 #include "frontend/ladder/text/format.h"
+#include "ir/support/diag/ladder.h"
 #include "ir/support/diag/nct.h"
 #include "ir/support/diag/operand.h"
 #include "ir/support/diag/source.h"
@@ -73,6 +74,10 @@ private:
         case ladder::DeclarationKind::Const: symbols_.declare(declaration); break;
         case ladder::DeclarationKind::Message: addMessage(declaration); break;
         case ladder::DeclarationKind::Button: addText(declaration, 32, kButtonTexts); break;
+        case ladder::DeclarationKind::Data:
+          diagnostics_.report(diag::UnsupportedElement, declaration.range)
+              << "a statement `data`" << "all that a program has is written in ladder text";
+          break;
         }
     for (const ladder::LadderFile& file : files_)
       for (const Word& name : file.badNames) symbols_.declareBad(name.text);

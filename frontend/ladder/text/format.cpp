@@ -13,12 +13,14 @@ namespace {
 constexpr Table kNames; // symbol, const
 constexpr Table kMessages;
 constexpr Table kButtons;
+constexpr Table kData;
 constexpr Table kStatements{.endsAtBlank = true}; // all other statements, in one cell
 
 // The table that lines with this keyword belong to; null if they do not form a table.
 const Table* tableOf(std::string_view keyword) {
   if (keyword == "symbol" || keyword == "const") return &kNames;
   if (keyword == "message") return &kMessages;
+  if (keyword == "data") return &kData;
   return keyword == "button" ? &kButtons : nullptr;
 }
 

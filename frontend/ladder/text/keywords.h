@@ -15,6 +15,7 @@ inline constexpr Keyword kKeywords[] = {
     {"const", "gives a constant a name"},
     {"message", "the text of a message"},
     {"button", "the title of a function button"},
+    {"data", "a line of another section of the control's file"},
     {"section", "a title above the rungs that follow"},
     {"rung", "begins a rung; its text is the rung's title"},
 };

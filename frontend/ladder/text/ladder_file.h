@@ -17,13 +17,14 @@ struct Module {
   SourceRange range;
 };
 
-enum class DeclarationKind : uint8_t { Symbol, Const, Message, Button };
+enum class DeclarationKind : uint8_t { Symbol, Const, Message, Button, Data };
+constexpr bool holdsText(DeclarationKind kind) { return kind >= DeclarationKind::Message; }
 
-/// `symbol NAME VALUE`, `const NAME VALUE`, `message NUMBER "text"`, `button NUMBER "text"`.
+/// `symbol NAME VALUE`, `const NAME VALUE`, `message NUMBER "text"`, `button NUMBER "text"`, `data SECTION "line"`.
 struct Declaration {
   DeclarationKind kind = DeclarationKind::Symbol;
-  Word name;  ///< for a message or button, its number
-  Word value; ///< quoted for messages and buttons, never for others
+  Word name;  ///< for a message or button, its number; for data, the section
+  Word value; ///< quoted for texts, never for others
   std::string_view comment;
   SourceRange range;
 };

@@ -189,6 +189,7 @@ void Parser::dispatch(const SourceLine& source, std::string_view keyword) {
   if (keyword == "const") return declaration(DeclarationKind::Const);
   if (keyword == "message") return declaration(DeclarationKind::Message);
   if (keyword == "button") return declaration(DeclarationKind::Button);
+  if (keyword == "data") return declaration(DeclarationKind::Data);
   if (keyword == "section") return section();
   if (keyword == "module") return module();
   return dialect();
@@ -222,7 +223,7 @@ void Parser::module() {
 }
 
 void Parser::declaration(DeclarationKind kind) {
-  const bool wantsText = kind == DeclarationKind::Message || kind == DeclarationKind::Button;
+  const bool wantsText = holdsText(kind);
   if (words_.words.size() != 3 || isText(1) || isText(2) != wantsText) {
     if (!wantsText && words_.words.size() > 1 && !isText(1)) result_.badNames.push_back(words_.words[1]);
     switch (kind) {
@@ -230,6 +231,7 @@ void Parser::declaration(DeclarationKind kind) {
     case DeclarationKind::Const: return malformed("const NAME VALUE");
     case DeclarationKind::Message: return malformed("message NUMBER \"text\"");
     case DeclarationKind::Button: return malformed("button NUMBER \"text\"");
+    case DeclarationKind::Data: return malformed("data SECTION \"line\"");
     }
   }
   add(StatementKind::Declaration, result_.declarations.size());

@@ -10,6 +10,7 @@
 #include "frontend/network/read/gaps.h"
 #include "frontend/network/read/reading.h"
 #include "ir/support/check.h"
+#include "ir/support/diag/ladder.h"
 #include "ir/support/diag/pmc.h"
 
 namespace rung::frontend::network {
@@ -48,10 +49,33 @@ Program readBack(const Language& language, SourceManager& sources, FileId file, 
   return again;
 }
 
-// Reports networks that are too large to draw; false if there are errors.
-bool checkDrawings(const Language& language, const Program& program, Diagnostics& diagnostics) {
-  for (const Unit& unit : program.units) {
+bool hasDrawnOperand(Command command) {
+  return isContact(command) || isCoil(command) || command == Command::Parameter || command == Command::Table;
+}
+
+// Report texts and names with characters that ladder text cannot hold.
+void checkGap(const Gap& gap, Diagnostics& diagnostics) {
+  for (const Item& item : gap)
+    if ((item.kind == Item::Kind::Message || item.kind == Item::Kind::Data) &&
+        item.value.find('"') != std::string::npos)
+      diagnostics.report(diag::NoLadderText, item.range) << item.value << "quotes";
+}
+
+void checkNames(const Network& network, Diagnostics& diagnostics) {
+  for (const Written& command : network.written)
+    if (hasDrawnOperand(command.command) && !canBeDrawn(command.operand))
+      diagnostics.report(diag::NoLadderText, command.range) << command.operand << "brackets";
+}
+
+// Reports what ladder text cannot hold, and networks that are too large to draw; false if there are errors.
+bool checkDrawings(const Language& language, const SourceProgram& source, Diagnostics& diagnostics) {
+  checkGap(source.preamble, diagnostics);
+  checkGap(source.tail, diagnostics);
+  for (const Unit& unit : source.program.units) {
+    checkGap(unit.lead, diagnostics);
     for (const Network& network : withoutEnd(unit)) {
+      checkGap(network.gap, diagnostics);
+      checkNames(network, diagnostics);
       const DrawingSize size = sizeOf(language, network);
       if (size.lines * size.columns > kMaxDrawing)
         diagnostics.report(diag::DrawingTooLarge, network.range) << size.lines << size.columns;
@@ -65,11 +89,12 @@ bool checkDrawings(const Language& language, const Program& program, Diagnostics
 std::optional<std::string> convertProgram(const Language& language, SourceManager& sources,
                                           std::span<const FileId> files, Form to, Diagnostics& diagnostics) {
   const bool toList = to == Form::List;
-  const SourceProgram source = readSource(language, sources, files);
-  if (!toList && !checkDrawings(language, source.program, diagnostics)) return std::nullopt;
+  SourceProgram source = readSource(language, sources, files);
+  if (!toList && !checkDrawings(language, source, diagnostics)) return std::nullopt;
+  if (toList) prepareForList(language, source);
   std::string text = toList ? writeList(language, source) : writeLadder(language, source);
   SourceManager converted;
-  const std::string name = fmt::format("converted{}", toList ? language.listExtension : ".lad");
+  const std::string name = fmt::format("converted{}", toList ? language.listExtensions[0] : ".lad");
   readBack(language, converted, converted.addBuffer(name, text), source.program);
   return text;
 }
@@ -79,7 +104,7 @@ std::optional<LadderForm> ladderForm(const Language& language, SourceManager& so
   if (std::ranges::all_of(files, [&](FileId file) { return isLadder(language, sources, file); }))
     return LadderForm{{files.begin(), files.end()}, {}, {}};
   const SourceProgram source = readSource(language, sources, files);
-  if (!checkDrawings(language, source.program, diagnostics)) return std::nullopt;
+  if (!checkDrawings(language, source, diagnostics)) return std::nullopt;
   LadderForm form;
   for (const Unit& unit : source.program.units)
     for (const Network& network : withoutEnd(unit)) form.networks.push_back(network.range);

@@ -75,7 +75,7 @@ private:
   void paintParallel(Tree& tree, uint32_t node, std::vector<Spot>& spots);
   void paintPins();
   void paintBox();
-  void paintCoils(uint32_t column);
+  void paintCoils(uint32_t column, uint32_t joint);
 
   const Language& language_;
   const Network& network_;
@@ -116,7 +116,7 @@ std::string Painter::boxText() const {
     if (command.command != Command::Parameter && command.command != Command::Table) continue;
     if (command.command == Command::Table && !table) text += fmt::format(" {}", language_.nameOf(Command::Table));
     table = command.command == Command::Table;
-    text += fmt::format(" {}", command.operand);
+    text += fmt::format(" {}", drawnOperand(command.operand));
   }
   return text + '}';
 }
@@ -285,17 +285,20 @@ void Painter::paintBox() {
     const size_t width = box_.size() > kMaxPad ? 0 : box_.size() - 2;
     put(pin, boxColumn_, fmt::format("{{{:<{}}", pins[pin - 1].name, width) + '}');
   }
-  paintCoils(boxColumn_ + static_cast<uint32_t>(box_.size()));
+  size_t width = box_.size();
+  for (uint32_t pin = 1; pin < std::min(trees_.size(), coils_.size()); ++pin)
+    width = std::max(width, pins[pin - 1].name.size() + 2);
+  paintCoils(boxColumn_ + static_cast<uint32_t>(box_.size()), boxColumn_ + static_cast<uint32_t>(width) + 2);
 }
 
-void Painter::paintCoils(uint32_t column) {
+// From the column after the box or the contacts; several coils from a joint.
+void Painter::paintCoils(uint32_t column, uint32_t joint) {
+  if (coils_.empty()) return;
+  wire(0, column, coils_.size() == 1 ? column + 2 : joint);
   for (uint32_t i = 0; i < coils_.size(); ++i) {
     const Written& coil = network_.written[coils_[i]];
-    if (coils_.size() == 1)
-      put(0, column, "--");
-    else
-      put(i, i == 0 ? column : column + 2, i == 0 ? "--+--" : "+--");
-    element(i, column + (coils_.size() == 1 ? 2 : 5), coils_[i], elementText(coil.command, coil.operand));
+    if (coils_.size() > 1) put(i, joint, "+--");
+    element(i, coils_.size() == 1 ? column + 2 : joint + 3, coils_[i], elementText(coil.command, coil.operand));
   }
 }
 
@@ -313,7 +316,8 @@ Drawing Painter::run() {
     paintPins();
     paintBox();
   } else {
-    paintCoils(kStart + trees_[0].extents[trees_[0].sp.root].width);
+    const uint32_t end = kStart + trees_[0].extents[trees_[0].sp.root].width;
+    paintCoils(end, end + 2);
   }
   return std::move(drawing_);
 }

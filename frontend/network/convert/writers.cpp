@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <map>
 #include <ranges>
 
 #include "frontend/network/convert/drawing.h"
@@ -14,6 +15,7 @@
 #include "frontend/network/read/gaps.h"
 #include "frontend/network/read/reading.h"
 #include "ir/support/check.h"
+#include "rtlib/text/letters.h"
 
 namespace rung::frontend::network {
 
@@ -72,6 +74,17 @@ namespace {
 
 using Kind = Item::Kind;
 constexpr Table kNames; // symbol, const
+constexpr Table kMessages;
+constexpr Table kData;
+
+// Whether ladder text can declare it. A name from a section can have other characters; a program does not use it then.
+bool canBeDeclared(std::string_view name) {
+  return std::ranges::all_of(name, [](char c) { return c > ' ' && c < 0x7F && c != '"' && c != ';'; });
+}
+
+std::string commentText(const Item& item) {
+  return item.kind == Kind::Section ? fmt::format("section \"{}\"", item.text) : item.text;
+}
 
 } // namespace
 
@@ -81,20 +94,48 @@ std::string commandText(const Language& language, Command command, std::string_v
 }
 
 void GapPage::declaration(const Item& item) {
-  lines_.row(kNames, {item.kind == Kind::Symbol ? "symbol" : "const", item.text, item.value}, remark(item.comment));
+  const bool isText = item.kind == Kind::Message || item.kind == Kind::Data;
+  if (!canBeDeclared(item.text) || (!isText && !canBeDeclared(item.value)))
+    return comment(fmt::format("symbol {} {}", item.text, item.value));
+  const Table& table = item.kind == Kind::Message ? kMessages : item.kind == Kind::Data ? kData : kNames;
+  const std::string_view keyword = item.kind == Kind::Message ? "message"
+                                   : item.kind == Kind::Data  ? "data"
+                                   : item.kind == Kind::Const ? "const"
+                                                              : "symbol";
+  const std::string_view quote = isText ? "\"" : "";
+  lines_.row(table, {std::string(keyword), item.text, fmt::format("{0}{1}{0}", quote, item.value)},
+             remark(item.comment));
+}
+
+// Whether it is a line of a comment (* *) in a list. A line that begins with % would end the section there.
+bool GapPage::isInBlock(const Item& item) const {
+  if (form_ != Form::List || !language_.list.blockComments) return false;
+  if (item.kind != Kind::Comment && item.kind != Kind::Section) return false;
+  return !item.text.empty() && !item.text.starts_with('%') && item.text.find("*)") == std::string::npos;
+}
+
+void GapPage::item(const Item& item) {
+  switch (item.kind) {
+  case Kind::Comment: comment(item.text); break;
+  case Kind::Blank: blank(); break;
+  case Kind::Dialect: line(fmt::format("dialect {}", language_.name), item.comment); break;
+  case Kind::Section: form_ == Form::List ? comment(commentText(item)) : line(commentText(item)); break;
+  case Kind::Symbol:
+  case Kind::Const:
+  case Kind::Message:
+  case Kind::Data: declaration(item); break;
+  }
 }
 
 void GapPage::gap(const Gap& gap) {
+  bool isOpen = false;
   for (const Item& item : gap) {
-    switch (item.kind) {
-    case Kind::Comment: comment(item.text); break;
-    case Kind::Blank: blank(); break;
-    case Kind::Dialect: line(fmt::format("dialect {}", language_.name), item.comment); break;
-    case Kind::Section: line(fmt::format("{}section \"{}\"", form_ == Form::List ? "; " : "", item.text)); break;
-    case Kind::Symbol:
-    case Kind::Const: declaration(item); break;
-    }
+    const bool inBlock = isInBlock(item);
+    if (inBlock != isOpen) line(inBlock ? "(*" : "*)");
+    isOpen = inBlock;
+    inBlock ? line(commentText(item)) : this->item(item);
   }
+  if (isOpen) line("*)");
 }
 
 Gap tidy(const Gap& gap) {
@@ -263,9 +304,12 @@ public:
   std::string run();
 
 private:
-  void command(const Written& command);
+  void command(const Written& command, bool begins);
   void function(const Row& row, std::string_view comment = {}) {
-    page_.line(commandText(language_, Command::Function, row.info.mnemonic), comment);
+    write({.command = Command::Function, .operand = row.info.mnemonic}, comment, false);
+  }
+  void write(const Written& command, std::string_view comment, bool begins) {
+    page_.line(language_.list.command(language_, command, begins), comment);
   }
   void begin(const Unit& unit);
   void end(const Unit& unit);
@@ -286,14 +330,15 @@ private:
   Gap pending_; // gap before the first level, which has no command that begins it
 };
 
-void ListWriter::command(const Written& command) {
+void ListWriter::command(const Written& command, bool begins) {
   for (const std::string& text : command.before) page_.comment(text);
-  page_.line(commandText(language_, command.command, command.operand), command.comment);
+  write(command, command.comment, begins);
 }
 
 void ListWriter::network(const Network& network) {
   lead(tidy(protect(afterPending(network.gap), clean(network.title))));
-  for (const Written& command : network.written) this->command(command);
+  bool begins = true;
+  for (const Written& command : network.written) this->command(command, std::exchange(begins, false));
 }
 
 void ListWriter::begin(const Unit& unit) {
@@ -308,9 +353,10 @@ void ListWriter::begin(const Unit& unit) {
   if (unit.kind == UnitKind::Level) {
     function(language_.endOf(unit.number - 1), unit.comment);
   } else {
-    for (const Written& command : unit.condition) this->command(command);
+    bool begins = true;
+    for (const Written& command : unit.condition) this->command(command, std::exchange(begins, false));
     function(language_.rowOf(Control::Sp), unit.comment);
-    page_.line(commandText(language_, Command::Parameter, source_.sources.text(unit.nameRange)));
+    write({.command = Command::Parameter, .operand = source_.sources.text(unit.nameRange)}, {}, false);
   }
   page_.blank();
 }
@@ -318,23 +364,78 @@ void ListWriter::begin(const Unit& unit) {
 void ListWriter::end(const Unit& unit) {
   const bool isLevel = unit.kind == UnitKind::Level;
   if (isLevel && unit.number + 1 != language_.levels.size()) return; // the next level begins with this command
+  if (isLevel && language_.levels[unit.number].optional && withoutEnd(unit).empty()) return;
   page_.blank();
   function(isLevel ? language_.endOf(unit.number) : language_.rowOf(Control::Spe));
 }
 
 std::string ListWriter::run() {
-  page_.gap(tidy(source_.preamble));
-  page_.blank();
+  const auto frame = language_.list.frame;
+  if (frame == nullptr) {
+    page_.gap(tidy(source_.preamble));
+    page_.blank();
+  }
   for (const Unit& unit : source_.program.units) {
     begin(unit);
     for (const Network& network : withoutEnd(unit)) this->network(network);
     end(unit);
   }
   lead(tidy(source_.tail));
-  return page_.take();
+  if (const Row* end = language_.findRowOf(Control::ProgramEnd); end != nullptr && language_.needsProgramEnd) {
+    if (source_.tail.empty()) page_.blank();
+    function(*end);
+  }
+  return frame == nullptr ? page_.take() : frame(source_.preamble, source_.declarations, page_.take());
+}
+
+// Moves the declarations out of a gap. Constants and the comment of the dialect statement remain as comments.
+void takeDeclarations(Gap& gap, std::vector<Item>& declarations) {
+  Gap rest;
+  for (Item& item : gap) {
+    if (item.kind == Kind::Const)
+      rest.push_back({Kind::Comment, fmt::format("const {} {}", item.text, item.value)});
+    else if (isDeclaration(item.kind)) {
+      if (item.kind != Kind::Symbol && !item.comment.empty()) rest.push_back({Kind::Comment, item.comment});
+      declarations.push_back(std::move(item));
+    } else if (item.kind != Kind::Dialect)
+      rest.push_back(std::move(item));
+    else if (!item.comment.empty())
+      rest.push_back({Kind::Comment, std::move(item.comment)});
+  }
+  gap = std::move(rest);
+}
+
+// Visits all gaps of a program in the order of its text.
+template <class Visit>
+void eachGap(SourceProgram& source, Visit visit) {
+  visit(source.preamble);
+  for (Unit& unit : source.program.units) {
+    visit(unit.lead);
+    for (Network& network : unit.networks) visit(network.gap);
+  }
+  visit(source.tail);
 }
 
 } // namespace
+
+void prepareForList(const Language& language, SourceProgram& source) {
+  if (language.list.frame == nullptr) return;
+  const auto keyOf = [&](std::string_view name) {
+    return language.namesIgnoreCase ? text::upper(name) : std::string(name);
+  };
+  std::map<std::string, std::string_view> constants;
+  eachGap(source, [&](Gap& gap) {
+    for (const Item& item : gap)
+      if (item.kind == Kind::Const) constants.emplace(keyOf(item.text), source.values.emplace_back(item.value));
+    takeDeclarations(gap, source.declarations);
+  });
+  for (Unit& unit : source.program.units)
+    for (Network& network : unit.networks)
+      for (Written& command : network.written)
+        if (command.command == Command::Parameter || command.command == Command::Table)
+          if (const auto found = constants.find(keyOf(command.operand)); found != constants.end())
+            command.operand = found->second;
+}
 
 std::string writeList(const Language& language, const SourceProgram& source) {
   return ListWriter(language, source).run();

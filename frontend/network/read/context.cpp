@@ -238,6 +238,12 @@ frontend::NamedPlace placeOf(const Language& language, const Address& address, u
   return {{&language.at(address.area).letter, 1}, address.byte * 8 + address.bit, address.isBit ? 1 : bytes * 8};
 }
 
+Names::Names(const Language& language)
+    : SymbolTable(language.namesIgnoreCase ? [](std::string_view name) { return text::upper(name); }
+                                           : frontend::asWritten) {
+  addScope();
+}
+
 UserName* Names::declare(Context& context, const Word& name, UserName::Kind kind) {
   if (name.quoted || !isFreeName(context.language, name.text)) {
     refuse(name.text);
@@ -354,7 +360,9 @@ void reportUnknownCommand(Context& context, std::span<const Word> words) {
     return;
   }
   if (!context.diagnostics.suggests()) return;
-  const auto isName = [](std::string_view name) { return !name.empty(); };
+  const auto isName = [&](std::string_view name) {
+    return !name.empty() && !text::equalsIgnoringCase(name, word.text);
+  };
   text::Likely similar = text::likeliest(word.text, language.commands | std::views::filter(isName));
   if (frontend::isModified(word.text, similar.word)) similar = {};
   suggestInstruction(context, word.range, {similar.word, similar.certain && fits(similar.word)}, report);

@@ -47,8 +47,7 @@ struct Context;
 
 class Names : public frontend::SymbolTable<UserName, UndeclaredName> {
 public:
-  Names() : Names(frontend::asWritten) {}
-  explicit Names(frontend::NameKey keyOf) : SymbolTable(keyOf) { addScope(); }
+  explicit Names(const Language& language);
 
   void addSymbol(Context& context, const Word& name, const Word& value, std::string_view comment);
   void addConstant(Context& context, const Word& name, const Word& value);
@@ -79,7 +78,7 @@ struct Context {
   const Language& language;
   SourceManager& sources;
   Diagnostics& diagnostics;
-  Names names = {};
+  Names names = Names(language);
   uint32_t steps = 0;
   bool isSimulated = false; // the program runs beside the simulated CNC
   // Called with what operands name: a bit, or `length` bytes from an address on. May be empty.

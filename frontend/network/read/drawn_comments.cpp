@@ -103,10 +103,19 @@ void Attachment::line(const ladder::Comment& comment, bool isAbove) {
 
 } // namespace
 
+bool canBeDrawn(std::string_view operand) { return operand.find_first_of("\"[](){}") == std::string_view::npos; }
+
+std::string drawnOperand(std::string_view operand) {
+  const bool isMarked = operand.find_first_of("/@%~") == 0;
+  return isMarked ? fmt::format("\"{}\"", operand) : std::string(operand);
+}
+
 std::string elementText(Command command, std::string_view operand) {
   constexpr std::string_view kCoils[] = {"", "/", "S ", "R "};
-  if (isContact(command)) return fmt::format("[{}{}]", isClosed(command) ? "/" : "", operand);
-  if (isCoil(command)) return fmt::format("({}{})", kCoils[static_cast<size_t>(coilOf(command))], operand);
+  const std::string_view mark = isClosed(command) ? "/" : command == Command::LoadFalling ? "%" : "";
+  if (isContact(command)) return fmt::format("[{}{}]", mark, drawnOperand(operand));
+  if (isCoil(command))
+    return fmt::format("({}{})", kCoils[static_cast<size_t>(coilOf(command))], drawnOperand(operand));
   return fmt::format("{{{}}}", operand);
 }
 

@@ -31,6 +31,10 @@ struct LineEnds {
 constexpr bool isElement(Command command) {
   return isContact(command) || isCoil(command) || command == Command::Function;
 }
+// Whether a drawing can hold an operand: names of some languages have characters of drawings.
+bool canBeDrawn(std::string_view operand);
+// An operand in a drawing: in quotes if it begins with what is a mark there.
+std::string drawnOperand(std::string_view operand);
 // Its element, "[/A]", "(S B)"; functions are "{TMRB}".
 std::string elementText(Command command, std::string_view operand);
 

@@ -42,7 +42,7 @@ void Gaps::dialect(std::string_view comment) {
 
 void Gaps::declaration(Kind kind, const Word& name, const Word& value, std::string_view comment) {
   begun_ = true;
-  add({kind, std::string(name.text), std::string(value.text), clean(comment)});
+  add({kind, std::string(name.text), clean(value.text), clean(comment), value.range});
 }
 
 void Gaps::section(std::string_view title, std::string_view comment) {
@@ -85,7 +85,9 @@ std::vector<std::string> Gaps::takeComments(Gap& network) {
     case Kind::Section: comments.push_back(fmt::format("section \"{}\"", item.text)); break;
     case Kind::Dialect:
     case Kind::Symbol:
-    case Kind::Const: statements.push_back(std::move(item)); break;
+    case Kind::Const:
+    case Kind::Message:
+    case Kind::Data: statements.push_back(std::move(item)); break;
     }
   }
   network.insert(network.begin(), std::make_move_iterator(statements.begin()),

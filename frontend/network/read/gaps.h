@@ -21,7 +21,7 @@ public:
   void blank() { add({Item::Kind::Blank}); }
   // The statement is kept only before all other statements; elsewhere only its comment is.
   void dialect(std::string_view comment);
-  // `symbol` or `const`, and the comment after it.
+  // A declaration and the comment after it.
   void declaration(Item::Kind kind, const Word& name, const Word& value, std::string_view comment);
   void section(std::string_view title, std::string_view comment);
   // The title of a rung: in a list it becomes the first line of the last block of comment lines.

@@ -40,6 +40,21 @@ Coil coilOf(ladder::CoilKind kind) {
 
 Place placeOf(const Element& element) { return {element.range, element.line}; }
 
+// The operand of a contact or coil. Where names have any characters, one may be in quotes.
+Word operandIn(const Language& language, const Word& word) {
+  const bool isQuoted =
+      !language.nameMarks.empty() && word.text.size() > 2 && word.text.front() == '"' && word.text.back() == '"';
+  return isQuoted ? Word{word.text.substr(1, word.text.size() - 2), word.range, true} : word;
+}
+
+bool isFalling(const Element& element) {
+  return element.kind == ElementKind::Contact && element.edge == '%' && !element.negated;
+}
+
+std::string edgesOf(const Language& language) {
+  return language.mnemonicsOf([](const Row& row) { return row.numbers == Row::Numbers::Edge; });
+}
+
 // Text that belongs to a rung beside its drawing.
 struct RungText {
   std::string_view title;
@@ -64,6 +79,7 @@ private:
   bool checkPins();
   bool checkCoils();
   bool decomposeInputs();
+  bool orderInputs();
   std::string nameOf(const Element& element) const;
   void emitInputs();
   void emitBox();
@@ -77,6 +93,7 @@ private:
   const Row* row_ = nullptr;
   std::vector<const Element*> coils_; // sorted from top to bottom
   std::vector<SpTree> inputs_;
+  std::vector<CanonicalStep> steps_;
 };
 
 std::string RungReader::nameOf(const Element& element) const {
@@ -86,11 +103,11 @@ std::string RungReader::nameOf(const Element& element) const {
 }
 
 bool RungReader::checkKind(const Element& element) {
-  if (element.edge != 0) {
+  const bool hasFalling = !context_.language.nameOf(Command::LoadFalling).empty();
+  if (element.edge != 0 && !(hasFalling && isFalling(element))) {
     diagnostics_.report(diag::UnsupportedElement, element.range)
         << (element.kind == ElementKind::Coil ? "a coil for an edge" : "an edge contact")
-        << fmt::format("use {}",
-                       context_.language.mnemonicsOf([](const Row& row) { return row.numbers == Row::Numbers::Edge; }));
+        << fmt::format("use {}", edgesOf(context_.language));
     return false;
   }
   if (element.kind == ElementKind::Contact && !element.output.valid()) {
@@ -229,36 +246,50 @@ bool RungReader::decomposeInputs() {
   return true;
 }
 
-void RungReader::emitInputs() {
-  std::vector<CanonicalStep> steps;
+// The contacts as a list has them. Only the first one of a network may be a falling edge.
+bool RungReader::orderInputs() {
   for (const SpTree& input : inputs_) {
     const std::vector<CanonicalStep> own = canonicalSteps(input);
-    steps.insert(steps.end(), own.begin(), own.end());
+    steps_.insert(steps_.end(), own.begin(), own.end());
   }
   if (text_.blocks)
-    if (auto other = withBlocks(steps, *text_.blocks, context_.language.stackDepth)) steps = std::move(*other);
+    if (auto other = withBlocks(steps_, *text_.blocks, context_.language.stackDepth)) steps_ = std::move(*other);
+  for (size_t i = 1; i < steps_.size(); ++i) {
+    if (!steps_[i].contact.valid() || !isFalling(rung_.element(steps_[i].contact))) continue;
+    diagnostics_.report(diag::UnsupportedElement, rung_.element(steps_[i].contact).range)
+        << "an edge contact that does not begin its rung" << fmt::format("use {}", edgesOf(context_.language));
+    return false;
+  }
+  return true;
+}
+
+void RungReader::emitInputs() {
   Place last;
-  for (const CanonicalStep& step : steps) {
+  for (const CanonicalStep& step : steps_) {
     if (!step.contact.valid()) {
       builder_.block(step.kind, last);
       continue;
     }
     const Element& contact = rung_.element(step.contact);
     last = placeOf(contact);
-    builder_.contact(step.kind, contact.negated ? Contact::Closed : Contact::Open, rung_.operandOf(contact), last);
+    const Contact type = contact.negated ? Contact::Closed : isFalling(contact) ? Contact::Falling : Contact::Open;
+    builder_.contact(step.kind, type, operandIn(context_.language, rung_.operandOf(contact)), last);
   }
 }
 
-bool isTableWord(const Language& language, const Word& word) {
-  return text::equalsIgnoringCase(word.text, language.nameOf(Command::Table));
+// Whether the operand of a box begins its table. It may also be a name, in place of a parameter.
+bool beginsTable(const Context& context, const Row& row, const Word& word, size_t index) {
+  return row.hasTable && text::equalsIgnoringCase(word.text, context.language.nameOf(Command::Table)) &&
+         (index == row.info.operands.size() || !context.names.has(word.text));
 }
 
 void RungReader::emitBox() {
   builder_.function(row_, placeOf(*box_));
   bool table = false;
+  size_t index = 0;
   for (const Word& operand : rung_.operandsOf(*box_)) {
     const Place at{operand.range, box_->line};
-    if (row_->hasTable && !table && isTableWord(context_.language, operand))
+    if (!table && beginsTable(context_, *row_, operand, index++))
       table = true;
     else if (table)
       builder_.tableRow(operand, at);
@@ -268,11 +299,12 @@ void RungReader::emitBox() {
 }
 
 bool RungReader::read() {
-  if (!sort() || !checkBox() || !checkCoils() || !decomposeInputs()) return false;
+  if (!sort() || !checkBox() || !checkCoils() || !decomposeInputs() || !orderInputs()) return false;
   builder_.title(text_.title);
   emitInputs();
   if (box_ != nullptr) emitBox();
-  for (const Element* coil : coils_) builder_.coil(coilOf(coil->coil), rung_.operandOf(*coil), placeOf(*coil));
+  for (const Element* coil : coils_)
+    builder_.coil(coilOf(coil->coil), operandIn(context_.language, rung_.operandOf(*coil)), placeOf(*coil));
   builder_.finish();
   return true;
 }
@@ -291,6 +323,18 @@ bool mayShapeProgram(const Context& context, const ladder::Rung& rung) {
                                  [&](std::string_view word) { return mayShapeProgram(context.language, word); });
     return element.kind == ElementKind::Box && mayShapeProgram(context.language, element.mnemonic);
   });
+}
+
+// Buttons exist in other dialects only, and are reported.
+Item::Kind itemKindOf(ladder::DeclarationKind kind) {
+  switch (kind) {
+  case ladder::DeclarationKind::Symbol: return Item::Kind::Symbol;
+  case ladder::DeclarationKind::Const: return Item::Kind::Const;
+  case ladder::DeclarationKind::Message:
+  case ladder::DeclarationKind::Button: return Item::Kind::Message;
+  case ladder::DeclarationKind::Data: return Item::Kind::Data;
+  }
+  return Item::Kind::Comment;
 }
 
 class LadderReader {
@@ -354,8 +398,7 @@ void LadderReader::readStatement(const ladder::Statement& statement) {
 }
 
 void LadderReader::declaration(const ladder::Declaration& declaration) {
-  const auto kind = declaration.kind == ladder::DeclarationKind::Symbol ? Item::Kind::Symbol : Item::Kind::Const;
-  context_.gaps.declaration(kind, declaration.name, declaration.value, declaration.comment);
+  context_.gaps.declaration(itemKindOf(declaration.kind), declaration.name, declaration.value, declaration.comment);
 }
 
 // "module LEVEL1, module LEVEL2 or module SUB Pn"
@@ -426,8 +469,8 @@ void LadderReader::readRejected(const ladder::Rung& rung) {
 void LadderReader::readOperands(const ladder::Rung& rung, const Element& element) {
   const std::span<const Word> words = rung.operandsOf(element);
   switch (element.kind) {
-  case ElementKind::Contact: readBit(context_, words[0], Access::Read); return;
-  case ElementKind::Coil: readBit(context_, words[0], Access::Write); return;
+  case ElementKind::Contact: readBit(context_, operandIn(context_.language, words[0]), Access::Read); return;
+  case ElementKind::Coil: readBit(context_, operandIn(context_.language, words[0]), Access::Write); return;
   case ElementKind::Error: return;
   case ElementKind::Box: break;
   }
@@ -437,8 +480,9 @@ void LadderReader::readOperands(const ladder::Rung& rung, const Element& element
     reportUnknownFunction(context_, element.mnemonic, element.mnemonicRange, ladder::drawnFor(element.mnemonic));
   if (function.row == nullptr) return;
   context_.analysis.use(frontend::InstructionUse{element.mnemonicRange, &function.row->info});
+  size_t index = 0;
   const auto table = std::ranges::find_if(
-      words, [&](const Word& word) { return function.row->hasTable && isTableWord(context_.language, word); });
+      words, [&](const Word& word) { return beginsTable(context_, *function.row, word, index++); });
   const auto rows = table == words.end() ? words.end() : table + 1;
   checkFunction(context_, {words.begin(), table}, {rows, words.end()}, function);
 }
@@ -449,6 +493,25 @@ ladder::LadderFile parseLadderFile(Context& context, FileId file) {
   return ladder::parseLadder(context.sources, file, context.diagnostics, context.language.findBox);
 }
 
+namespace {
+
+void declareSymbol(Context& context, const ladder::Declaration& declaration) {
+  if (const auto addSymbol = context.language.list.addSymbol)
+    addSymbol(context, declaration.name, declaration.value, declaration.comment);
+  else
+    context.names.addSymbol(context, declaration.name, declaration.value, declaration.comment);
+}
+
+// Messages and data belong to languages whose lists have sections for them; the dialect reads them there and here.
+void checkText(Context& context, const ladder::Declaration& declaration) {
+  const bool hasSections = context.language.list.frame != nullptr;
+  if (hasSections && declaration.kind != ladder::DeclarationKind::Button) return;
+  context.diagnostics.report(diag::UnsupportedElement, declaration.range)
+      << "a statement for texts" << context.language.messageTexts;
+}
+
+} // namespace
+
 void readLadderDeclarations(Context& context, const ladder::LadderFile& file) {
   Diagnostics& diagnostics = context.diagnostics;
   const std::string_view own = context.language.name;
@@ -456,15 +519,11 @@ void readLadderDeclarations(Context& context, const ladder::LadderFile& file) {
     diagnostics.report(diag::DialectConflict, file.dialectRange) << file.dialect << own;
   for (const ladder::Declaration& declaration : file.declarations) {
     switch (declaration.kind) {
-    case ladder::DeclarationKind::Symbol:
-      context.names.addSymbol(context, declaration.name, declaration.value, declaration.comment);
-      break;
+    case ladder::DeclarationKind::Symbol: declareSymbol(context, declaration); break;
     case ladder::DeclarationKind::Const: context.names.addConstant(context, declaration.name, declaration.value); break;
     case ladder::DeclarationKind::Message:
     case ladder::DeclarationKind::Button:
-      diagnostics.report(diag::UnsupportedElement, declaration.range)
-          << "a statement for texts" << context.language.messageTexts;
-      break;
+    case ladder::DeclarationKind::Data: checkText(context, declaration); break;
     }
   }
 }

@@ -33,7 +33,8 @@ size_t operandCount(Command command);
 bool looksLikeComment(std::string_view word);
 
 std::shared_ptr<const ListFile> openList(const SourceManager& sources, FileId file);
-inline constexpr ListForm kCommandList = {&openList, &formatList};
+inline constexpr ListForm kCommandList = {
+    .open = &openList, .format = &formatList, .command = &listCommand, .commentColumn = kCommentColumn};
 // The last line that is not blank, for reports of what is missing at the end.
 SourceRange lastLineOf(const SourceManager& sources, FileId file);
 

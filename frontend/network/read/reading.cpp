@@ -10,7 +10,7 @@ namespace rung::frontend::network {
 bool isLadder(const Language& language, const SourceManager& sources, FileId file) {
   const std::string_view name = sources.name(file);
   if (name.ends_with(".lad")) return true;
-  if (name.ends_with(language.listExtension)) return false;
+  if (language.isList(name)) return false;
   LineReader lines(sources, file);
   LineWords words;
   for (SourceLine line; lines.next(line);) {

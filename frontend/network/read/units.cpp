@@ -2,6 +2,7 @@
 #include "frontend/network/read/units.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include <fmt/format.h>
@@ -47,16 +48,19 @@ const Row& UnitAssembler::lastEnd() const {
 }
 
 // An optional level begins with the first network after the level before it. If its end does not follow, the program
-// does not have the level, and these networks are outside of all units.
-void UnitAssembler::leaveOptional() {
+// does not have the level, and these networks are outside of all units; its comments go to what comes next.
+void UnitAssembler::leaveOptional(Gap& next) {
   if (current_ == kNone || current_ == 0 || !open_.empty() || !language_.levels[current_].optional) return;
-  const std::vector<Network>& networks = program_.units[current_].networks;
-  if (!networks.empty() && !networks.front().incomplete) stray_.push_back(networks.front().range);
+  Unit& unit = program_.units[current_];
+  if (!unit.networks.empty() && !unit.networks.front().incomplete) stray_.push_back(unit.networks.front().range);
+  if (!unit.comment.empty()) unit.lead.push_back(commentItem(std::exchange(unit.comment, {})));
+  next.insert(next.begin(), std::make_move_iterator(unit.lead.begin()), std::make_move_iterator(unit.lead.end()));
+  unit.lead.clear();
   current_ = kNone;
 }
 
 void UnitAssembler::endProgram(Network&& network) {
-  leaveOptional();
+  leaveOptional(network.gap);
   closeAll();
   if (programEnd_.valid())
     context_.diagnostics.report(diag::DuplicateProgramEnd, network.function.range)
@@ -152,7 +156,7 @@ void UnitAssembler::nest(SourceRange inner) {
 }
 
 void UnitAssembler::beginSubprogram(Network& network) {
-  leaveOptional();
+  leaveOptional(network.gap);
   strayReported_ = false;
   const SourceRange range = network.function.range;
   if (!open_.empty())
@@ -197,7 +201,9 @@ void UnitAssembler::closeAll() {
 }
 
 void UnitAssembler::endOfList(SourceRange lastLine) {
-  leaveOptional();
+  Gap rest;
+  leaveOptional(rest);
+  context_.gaps.giveBack(std::move(rest));
   const std::string_view last =
       (programEnd_.valid() ? *language_.findRowOf(Control::ProgramEnd) : lastEnd()).info.mnemonic;
   for (SourceRange range : stray_) context_.diagnostics.report(diag::CodeAfterEnd2, range) << last;

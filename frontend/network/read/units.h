@@ -38,7 +38,7 @@ private:
   void beginSubprogram(Network& network);
   void endSubprogram(Network&& network);
   void endProgram(Network&& network);
-  void leaveOptional();
+  void leaveOptional(Gap& next);
   void body(Network&& network);
   static void takeSource(Unit& unit, Network& network);
   void giveBackSource(Network& network);

@@ -4,8 +4,8 @@
 #include <sstream>
 
 #include "frontend/network/read/list_reader.h"
-#include "ir/text/text.h"
 #include "tests/support/long_run.h"
+#include "tests/support/without_places.h"
 #include "tests/unit/gsk/convert.h"
 #include "tests/unit/gsk/program_generator.h"
 
@@ -56,27 +56,10 @@ std::multiset<std::string> commentsOf(const std::string& list) {
   return result;
 }
 
-// A line of the module without its places in the source; ladder text has blanks for the tabs of titles.
-std::string withoutPlaces(std::string line) {
-  const size_t location = line.find(" loc(");
-  if (location != std::string::npos) line.erase(location, line.find(')', location) + 1 - location);
-  const size_t place = line.rfind(" @");
-  if (place != std::string::npos && place + 2 < line.size() && line[place + 2] >= '0' && line[place + 2] <= '9')
-    line.erase(place, line.find_first_not_of("0123456789", place + 2) - place);
-  for (size_t tab = line.find("\\t"); tab != std::string::npos; tab = line.find("\\t")) line.replace(tab, 2, " ");
-  std::replace(line.begin(), line.end(), '\t', ' ');
-  return line;
-}
-
 std::string moduleOf(const std::string& name, const std::string& text) {
   const auto compiled = compileFiles({{name, text}});
   EXPECT_TRUE(compiled->module) << compiled->text() << text;
-  if (!compiled->module) return {};
-  std::istringstream stream(ir::print(*compiled->module));
-  std::string result;
-  for (std::string line; std::getline(stream, line);)
-    if (!line.starts_with("    source ") && !line.starts_with("file ")) result += withoutPlaces(line) + '\n';
-  return result;
+  return compiled->module ? frontend::test::withoutPlaces(*compiled->module) : "";
 }
 
 void checkThereAndBack(const std::string& list) {

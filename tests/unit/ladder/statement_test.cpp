@@ -22,7 +22,7 @@ std::string outline(const Parsed& parsed) {
       break;
     case StatementKind::Declaration: {
       const Declaration& d = file.declarations[s.index];
-      constexpr const char* kNames[] = {"symbol", "const", "message", "button"};
+      constexpr const char* kNames[] = {"symbol", "const", "message", "button", "data"};
       text += kNames[static_cast<size_t>(d.kind)] + (" " + word(d.name) + " " + word(d.value));
       if (!d.comment.empty()) text += " ; " + std::string(d.comment);
       break;

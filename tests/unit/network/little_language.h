@@ -105,9 +105,10 @@ inline const nc::SignalTable& signals() {
 
 inline const frontend::InstructionInfo* findBox(std::string_view mnemonic);
 
+inline constexpr std::string_view kExtensions[] = {".lst"};
 inline constexpr Language kLittle = {
     .name = "little",
-    .listExtension = ".lst",
+    .listExtensions = kExtensions,
     .list = kCommandList,
     .commands = {"GET", "GETN", "WITH", "WITHN", "ELSE", "ELSEN", "", "MERGE", "MEET", "PUT", "PUTN", "HOLD", "DROP",
                  "DO", "ARG", "ROW", "DIALECT", "SYMBOL", "CONST"},

@@ -8,6 +8,7 @@
 
 #include "frontend/dialects/fanuc/areas.h"
 #include "frontend/dialects/fanuc/language.h"
+#include "frontend/dialects/fanuc/read/ladder_text.h"
 #include "frontend/network/address.h"
 #include "ir/support/diag/operand.h"
 #include "ir/support/diag/pmc.h"
@@ -42,46 +43,75 @@ std::optional<uint32_t> takeNumber(std::string_view& text) {
   return base + static_cast<uint32_t>(*number);
 }
 
+class MessageReader {
+public:
+  MessageReader(const network::Language& language, Diagnostics& diagnostics)
+      : language_(language), diagnostics_(diagnostics) {}
+
+  void add(const Word& place, const Word& line) {
+    const SourceRange range = join(place.range, line.range);
+    const network::AreaInfo& area = language_.at(areas::kA);
+    const std::optional<uint32_t> bit = bitOf(place.text);
+    if (!bit) {
+      diagnostics_.report(diag::BadListedMessage, range)
+          << fmt::format("found '{}' in place of the bit of A", place.text);
+      return;
+    }
+    if (area.room(*bit / 8) == 0) {
+      diagnostics_.report(diag::AddressOutOfRange, range) << place.text << network::bytesText(area);
+      return;
+    }
+    std::string_view text = text::trimmed(line.text);
+    const std::optional<uint32_t> number = takeNumber(text);
+    if (!number) {
+      diagnostics_.report(diag::BadListedMessage, range) << fmt::format("found '{}' in place of the number", text);
+      return;
+    }
+    const auto [first, isNew] = seen_.emplace(*bit, range);
+    if (!isNew)
+      diagnostics_.report(diag::DuplicateSymbol, range).note(first->second, "the first one is here")
+          << fmt::format("the message of A{}.{}", *bit / 8, *bit % 8);
+    else
+      messages_.push_back({*bit, *number, text, range});
+  }
+  std::vector<Message> take() { return std::move(messages_); }
+
+private:
+  const network::Language& language_;
+  Diagnostics& diagnostics_;
+  std::vector<Message> messages_;
+  std::map<uint32_t, SourceRange> seen_;
+};
+
 } // namespace
+
+std::optional<MessageLine> messageIn(const SourceLine& line) {
+  const std::string_view text = text::trimmed(line.text);
+  if (text.empty() || text[0] == ';') return std::nullopt;
+  const auto wordOf = [&](std::string_view part) {
+    const auto at = static_cast<size_t>(part.data() - line.text.data());
+    return Word{part, line.range(at, at + part.size()), false};
+  };
+  const size_t blank = std::min(text.find_first_of(" \t"), text.size());
+  return MessageLine{wordOf(text.substr(0, blank)), wordOf(text::trimmed(text.substr(blank)))};
+}
 
 std::vector<Message> readMessages(const network::Language& language, const SourceManager& sources,
                                   const MnemonicFiles& files, Diagnostics& diagnostics) {
-  std::vector<Message> messages;
-  std::map<uint32_t, SourceRange> seen;
-  const auto line = [&](const SourceLine& line) {
-    std::string_view text = text::trimmed(line.text);
-    if (text.empty() || text[0] == ';') return;
-    const auto at = static_cast<size_t>(text.data() - line.text.data());
-    const SourceRange range = line.range(at, at + text.size());
-    const size_t blank = std::min(text.find_first_of(" \t"), text.size());
-    const std::optional<uint32_t> bit = bitOf(text.substr(0, blank));
-    if (!bit) {
-      diagnostics.report(diag::BadListedMessage, range)
-          << fmt::format("found '{}' in place of the bit of A", text.substr(0, blank));
-      return;
-    }
-    if (language.at(areas::kA).room(*bit / 8) == 0) {
-      diagnostics.report(diag::AddressOutOfRange, range)
-          << text.substr(0, blank) << network::bytesText(language.at(areas::kA));
-      return;
-    }
-    text = text::trimmed(text.substr(blank));
-    const std::optional<uint32_t> number = takeNumber(text);
-    if (!number) {
-      diagnostics.report(diag::BadListedMessage, range) << fmt::format("found '{}' in place of the number", text);
-      return;
-    }
-    const auto [first, isNew] = seen.emplace(*bit, range);
-    if (!isNew)
-      diagnostics.report(diag::DuplicateSymbol, range).note(first->second, "the first one is here")
-          << fmt::format("the message of A{}.{}", *bit / 8, *bit % 8);
-    else
-      messages.push_back({*bit, *number, text, range});
+  MessageReader reader(language, diagnostics);
+  const auto read = [&](const SourceLine& line) {
+    if (const auto message = messageIn(line)) reader.add(message->place, message->text);
   };
-  for (const auto& file : files)
+  for (const auto& file : files) {
+    if (isLadderText(sources, file->file())) {
+      eachStatement(sources, file->file(), "message",
+                    [&](const Word& place, const Word& text) { reader.add(place, text); });
+      continue;
+    }
     for (const Section& section : file->sections())
-      if (section.kind == Section::Kind::Messages) eachLine(sources, file->file(), section, line);
-  return messages;
+      if (section.kind == Section::Kind::Messages) eachLine(sources, file->file(), section, read);
+  }
+  return reader.take();
 }
 
 } // namespace rung::frontend::fanuc

@@ -1,9 +1,11 @@
 // The messages of a mnemonic file, section `%@4` (inventory §1.7, F7).
 #pragma once
+#include <optional>
 #include <vector>
 
 #include "frontend/dialects/fanuc/read/mnemonic.h"
 #include "frontend/network/language.h"
+#include "frontend/syntax/word_lexer.h"
 #include "ir/core/module.h"
 #include "ir/support/diagnostics.h"
 
@@ -17,7 +19,13 @@ struct Message {
   SourceRange range; // of its line
 };
 
-// All messages of the files, in their order.
+// A line of the section: `A0.0 1000 TEXT`; nothing for one without a message.
+struct MessageLine {
+  Word place, text;
+};
+std::optional<MessageLine> messageIn(const SourceLine& line);
+
+// All messages of the files, in their order; those of ladder text are statements, `message A0.0 "1000 TEXT"`.
 std::vector<Message> readMessages(const network::Language& language, const SourceManager& sources,
                                   const MnemonicFiles& files, Diagnostics& diagnostics);
 

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "frontend/dialects/fanuc/read/messages.h"
 #include "frontend/dialects/fanuc/read/sections.h"
 #include "frontend/dialects/fanuc/read/symbols.h"
 #include "frontend/network/address.h"
@@ -343,18 +344,76 @@ bool isNetworkNumber(std::string_view word) {
          network::parseDigits(word.substr(1, word.size() - 2)).has_value();
 }
 
+namespace {
+
+// For conversions: the lines of a section that is not ladder, as declarations between the networks.
+class SectionKeeper {
+public:
+  SectionKeeper(Context& context, FileId file) : context_(context), file_(file) {}
+
+  // The text before the first section.
+  void head(const Section& first) const {
+    for (uint32_t number = 1; number + 1 < first.first; ++number)
+      if (const std::string_view text = text::trimmed(lineOf(context_.sources, file_, number).text);
+          !text.empty() && !text.starts_with("%@"))
+        context_.gaps.comment(text.substr(text.starts_with(';') ? 1 : 0));
+  }
+  void section(const Section& section) const {
+    if (hasSymbols(section)) return symbols(section);
+    if (section.kind == Section::Kind::Outside) return outside(section);
+    const bool hasMessages = section.kind == Section::Kind::Messages;
+    eachLine(context_.sources, file_, section, [&](const SourceLine& line) {
+      const auto message = hasMessages ? messageIn(line) : std::nullopt;
+      if (message) return context_.gaps.declaration(Kind::Message, message->place, message->text, {});
+      const std::string_view text = text::trimmed(line.text);
+      if (text.empty()) return;
+      const auto at = static_cast<size_t>(text.data() - line.text.data());
+      context_.gaps.declaration(Kind::Data, {section.code, section.range, false},
+                                {text, line.range(at, at + text.size()), false}, {});
+    });
+  }
+
+private:
+  using Kind = network::Item::Kind;
+
+  void outside(const Section& section) const {
+    eachLine(context_.sources, file_, section,
+             [&](const SourceLine& line) { context_.gaps.comment(text::trimmed(line.text)); });
+  }
+  void symbols(const Section& section) const {
+    Diagnostics discarded; // reported when the symbols were declared
+    const SymbolSink sink{[&](const Word& name, const Word& place, std::string_view comment) {
+                            context_.gaps.declaration(Kind::Symbol, name, place, comment);
+                          },
+                          [&](std::string_view text) { context_.gaps.comment(text); }};
+    readSymbols(context_.sources, discarded, file_, section, sink);
+  }
+
+  Context& context_;
+  FileId file_;
+};
+
+} // namespace
+
 void MnemonicFile::readDeclarations(Context& context) const {
+  const SymbolSink sink{
+      [&](const Word& name, const Word& place, std::string_view comment) { addSymbol(context, name, place, comment); },
+      [](std::string_view) {}};
   for (const Section& section : sections_)
-    if (section.kind == Section::Kind::Symbols || section.kind == Section::Kind::SymbolTable)
-      readSymbols(context, file(), section);
+    if (hasSymbols(section)) readSymbols(context.sources, context.diagnostics, file(), section, sink);
 }
 
 void MnemonicFile::read(Context& context, network::UnitAssembler& units) const {
+  const SectionKeeper keeper(context, file());
+  if (context.gaps.areKept() && !sections_.empty()) keeper.head(sections_.front());
   for (const Section& section : sections_) {
     if (section.kind == Section::Kind::Unknown)
       context.diagnostics.report(diag::UnknownSection, section.range) << section.code;
     if (section.kind == Section::Kind::Outside) context.diagnostics.report(diag::TextOutsideSection, section.range);
-    if (section.kind != Section::Kind::Ladder) continue;
+    if (section.kind != Section::Kind::Ladder) {
+      if (context.gaps.areKept()) keeper.section(section);
+      continue;
+    }
     LadderReader reader(context, file(), units);
     eachLine(context.sources, file(), section, [&](const SourceLine& line) { reader.line(line); });
     reader.finish();

@@ -6,6 +6,8 @@
 
 #include "frontend/dialects/fanuc/format.h"
 #include "frontend/dialects/fanuc/read/sections.h"
+#include "frontend/dialects/fanuc/read/symbols.h"
+#include "frontend/dialects/fanuc/write.h"
 #include "frontend/network/language.h"
 #include "frontend/syntax/word_lexer.h"
 
@@ -33,6 +35,12 @@ private:
 using MnemonicFiles = std::vector<std::shared_ptr<const MnemonicFile>>;
 
 std::shared_ptr<const network::ListFile> openMnemonic(const SourceManager& sources, FileId file);
-inline constexpr network::ListForm kMnemonicForm = {&openMnemonic, &formatMnemonic};
+inline constexpr network::ListForm kMnemonicForm = {.open = &openMnemonic,
+                                                    .format = &formatMnemonic,
+                                                    .command = &mnemonicCommand,
+                                                    .commentColumn = kCommentColumn,
+                                                    .blockComments = true,
+                                                    .frame = &mnemonicFile,
+                                                    .addSymbol = &addSymbol};
 
 } // namespace rung::frontend::fanuc

@@ -11,7 +11,7 @@ namespace rung::frontend::fanuc {
 inline constexpr uint32_t kCounterData = 2; // BINARY or BCD
 inline constexpr uint32_t kPmcType = 4;
 
-// The text of the line with a number; nothing if the file does not have it.
+// The text of the line with a number, in ladder text of `data %@0 "4 TYPE"`; nothing if the file does not have it.
 std::optional<Word> systemParameter(const SourceManager& sources, const MnemonicFile& file, uint32_t number);
 
 } // namespace rung::frontend::fanuc

@@ -18,10 +18,20 @@ struct Code {
 };
 // Sections with variable symbols have the same lines.
 constexpr Code kCodes[] = {
-    {"%@0", Kind::Parameters},    {"%@1", Kind::Title},     {"%@2", Kind::Symbols},    {"%@2-A", Kind::Symbols},
-    {"%@2-B", Kind::Symbols},     {"%@2-C", Kind::Symbols}, {"%@2-C2", Kind::Symbols}, {"%@2-D", Kind::Symbols},
-    {"%@2-E", Kind::SymbolTable}, {"%@3", Kind::Ladder},    {"%@3-D", Kind::Ladder},   {"%@4", Kind::Messages},
-    {"%@5", Kind::Modules},       {"%@7", Kind::Modules},
+    {kParametersCode, Kind::Parameters},
+    {kTitleCode, Kind::Title},
+    {"%@2", Kind::Symbols},
+    {"%@2-A", Kind::Symbols},
+    {"%@2-B", Kind::Symbols},
+    {"%@2-C", Kind::Symbols},
+    {"%@2-C2", Kind::Symbols},
+    {"%@2-D", Kind::Symbols},
+    {"%@2-E", Kind::SymbolTable},
+    {"%@3", Kind::Ladder},
+    {"%@3-D", Kind::Ladder},
+    {"%@4", Kind::Messages},
+    {"%@5", Kind::Modules},
+    {"%@7", Kind::Modules},
 };
 
 Kind kindOf(std::string_view line) {

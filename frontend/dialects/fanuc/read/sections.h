@@ -9,6 +9,9 @@
 
 namespace rung::frontend::fanuc {
 
+inline constexpr std::string_view kParametersCode = "%@0";
+inline constexpr std::string_view kTitleCode = "%@1";
+
 struct Section {
   enum class Kind : uint8_t { Parameters, Title, Symbols, SymbolTable, Ladder, Messages, Modules, Unknown, Outside };
   Kind kind = Kind::Unknown; // Outside: text between sections or after the last one
@@ -17,6 +20,10 @@ struct Section {
   uint32_t first = 0;        // its lines, without those with its code and its end: first to last - 1
   uint32_t last = 0;
 };
+
+inline bool hasSymbols(const Section& section) {
+  return section.kind == Section::Kind::Symbols || section.kind == Section::Kind::SymbolTable;
+}
 
 // A file without any code is one section of ladder. The text before the first code is a comment.
 std::vector<Section> sectionsOf(const SourceManager& sources, FileId file);

@@ -35,33 +35,25 @@ bool readPlace(Context& context, std::string_view text, UserName& name) {
   return address.has_value();
 }
 
-SourceRange rangeOf(const SourceLine& line, std::string_view part) {
+Word wordOf(const SourceLine& line, std::string_view part) {
   const auto at = static_cast<size_t>(part.data() - line.text.data());
-  return line.range(at, at + part.size());
-}
-
-void addSymbol(Context& context, const SourceLine& line, std::string_view symbol, std::string_view place,
-               std::string_view comment) {
-  UserName name{.name = symbol, .declared = rangeOf(line, symbol), .comment = comment};
-  if (readPlace(context, place, name))
-    context.names.addListed(context.diagnostics, std::move(name));
-  else
-    context.diagnostics.report(diag::BadListedSymbol, rangeOf(line, place)) << place << "the address of a symbol";
+  return {part, line.range(at, at + part.size()), false};
 }
 
 // `address symbol`, in form C with a line `$1 '' 'comment'` after it.
 class PlainReader {
 public:
-  explicit PlainReader(Context& context) : context_(context) {}
+  PlainReader(Diagnostics& diagnostics, const SymbolSink& sink) : diagnostics_(diagnostics), sink_(sink) {}
 
   void line(const SourceLine& line) {
     const std::string_view text = text::trimmed(line.text);
-    if (text.empty() || text[0] == ';') return;
-    if (text[0] == '$') return comment(text);
+    if (text.starts_with('$')) return comment(text);
     flush();
+    if (text.starts_with(';')) return sink_.remark(text.substr(1));
+    if (text.empty()) return;
     const size_t blank = text.find_first_of(" \t");
     if (blank == std::string_view::npos) {
-      context_.diagnostics.report(diag::BadListedSymbol, rangeOf(line, text)) << text << "an address and its symbol";
+      diagnostics_.report(diag::BadListedSymbol, wordOf(line, text).range) << text << "an address and its symbol";
       return;
     }
     place_ = text.substr(0, blank);
@@ -70,7 +62,7 @@ public:
     line_ = line;
   }
   void flush() {
-    if (!symbol_.empty()) addSymbol(context_, line_, symbol_, place_, comment_);
+    if (!symbol_.empty()) sink_.symbol(wordOf(line_, symbol_), wordOf(line_, place_), comment_);
     symbol_ = comment_ = {};
   }
 
@@ -86,7 +78,8 @@ private:
     }
   }
 
-  Context& context_;
+  Diagnostics& diagnostics_;
+  const SymbolSink& sink_;
   SourceLine line_;
   std::string_view place_, symbol_, comment_;
 };
@@ -120,27 +113,37 @@ std::vector<std::string_view> fieldsOf(std::string_view text) {
   }
 }
 
-void tableLine(Context& context, const Columns& columns, const SourceLine& line) {
+void tableLine(const Columns& columns, const SourceLine& line, const SymbolSink& sink) {
   const std::string_view text = text::trimmed(line.text);
-  if (text.empty() || text[0] == ';') return;
+  if (text.starts_with(';')) return sink.remark(text.substr(1));
+  if (text.empty()) return;
   const std::vector<std::string_view> fields = fieldsOf(text);
   const auto field = [&](size_t column) {
     return column == 0 || column > fields.size() ? std::string_view() : fields[column - 1];
   };
   if (field(columns.symbol).empty() || field(columns.address).empty()) return; // a comment without the other one
-  addSymbol(context, line, field(columns.symbol), field(columns.address), field(columns.comment));
+  sink.symbol(wordOf(line, field(columns.symbol)), wordOf(line, field(columns.address)), field(columns.comment));
 }
 
 } // namespace
 
-void readSymbols(Context& context, FileId file, const Section& section) {
+void addSymbol(Context& context, const Word& name, const Word& place, std::string_view comment) {
+  UserName symbol{.name = name.text, .declared = name.range, .comment = comment};
+  if (readPlace(context, place.text, symbol))
+    context.names.addListed(context.diagnostics, std::move(symbol));
+  else
+    context.diagnostics.report(diag::BadListedSymbol, place.range) << place.text << "the address of a symbol";
+}
+
+void readSymbols(const SourceManager& sources, Diagnostics& diagnostics, FileId file, const Section& section,
+                 const SymbolSink& sink) {
   if (section.kind == Section::Kind::SymbolTable) {
     const std::string code = text::upper(section.code);
     const Columns columns{columnNamed(code, "SYM=", 1), columnNamed(code, "ADR=", 2), columnNamed(code, "CM1=", 3)};
-    return eachLine(context.sources, file, section, [&](const SourceLine& line) { tableLine(context, columns, line); });
+    return eachLine(sources, file, section, [&](const SourceLine& line) { tableLine(columns, line, sink); });
   }
-  PlainReader reader(context);
-  eachLine(context.sources, file, section, [&](const SourceLine& line) { reader.line(line); });
+  PlainReader reader(diagnostics, sink);
+  eachLine(sources, file, section, [&](const SourceLine& line) { reader.line(line); });
   reader.flush();
 }
 

@@ -1,0 +1,95 @@
+// See write.h.
+#include "frontend/dialects/fanuc/write.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "frontend/dialects/fanuc/format.h"
+#include "frontend/dialects/fanuc/read/sections.h"
+
+namespace rung::frontend::fanuc {
+namespace {
+
+using network::Command;
+using network::Item;
+
+// A field of a table of symbols. In quotes, which a field with a comma needs, a quote cannot be written.
+std::string fieldOf(std::string_view text) {
+  const bool needsQuotes = text.find(',') != std::string_view::npos || text.find_first_of("\";%") == 0;
+  if (!needsQuotes) return std::string(text);
+  std::string field(text);
+  std::ranges::replace(field, '"', '\'');
+  return fmt::format("\"{}\"", field);
+}
+
+// Sections with their lines, in the order in which they were begun.
+class Sections {
+public:
+  void add(std::string_view code, std::string line) {
+    auto at = std::ranges::find(sections_, code, &std::pair<std::string, std::string>::first);
+    if (at == sections_.end()) at = sections_.insert(sections_.end(), {std::string(code), {}});
+    at->second.append(line).push_back('\n');
+  }
+  // A section with its code and its end; "" if it has no lines. It is then taken.
+  std::string take(std::string_view code) {
+    const auto at = std::ranges::find(sections_, code, &std::pair<std::string, std::string>::first);
+    if (at == sections_.end()) return {};
+    const std::string text = fmt::format("{}\n{}%\n", at->first, at->second);
+    sections_.erase(at);
+    return text;
+  }
+  std::string takeAll() {
+    std::string text;
+    while (!sections_.empty()) text += take(sections_.front().first);
+    return text;
+  }
+
+private:
+  std::vector<std::pair<std::string, std::string>> sections_;
+};
+
+constexpr std::string_view kSymbols = "%@2-E (SYM=1 ADR=2 CM1=3)";
+constexpr std::string_view kLadder = "%@3";
+constexpr std::string_view kMessages = "%@4";
+
+} // namespace
+
+std::string mnemonicCommand(const network::Language& language, const network::Written& command, bool begins) {
+  const auto line = [](std::string_view name, std::string_view operand) {
+    return fmt::format("{:<{}}{}", name, kOperandColumn, operand);
+  };
+  if (command.command == Command::Parameter || command.command == Command::Table) return std::string(command.operand);
+  if (command.command == Command::Function)
+    return line(language.nameOf(Command::Function),
+                fmt::format("{}", language.findFunction(command.operand)->info.number));
+  if (command.operand.empty()) return std::string(language.nameOf(command.command));
+  if (!begins && command.command == Command::Load) return line("RD.STK", command.operand);
+  if (!begins && command.command == Command::LoadNot) return line("RD.NOT.STK", command.operand);
+  return line(language.nameOf(command.command), command.operand);
+}
+
+std::string mnemonicFile(std::span<const Item> head, std::span<const Item> declarations, std::string_view ladder) {
+  Sections sections;
+  for (const Item& item : declarations) {
+    if (item.kind == Item::Kind::Symbol)
+      sections.add(kSymbols, fmt::format("{},{},{}", fieldOf(item.text), fieldOf(item.value), fieldOf(item.comment)));
+    else if (item.kind == Item::Kind::Message)
+      sections.add(kMessages, fmt::format("{} {}", item.text, item.value));
+    else
+      sections.add(item.text, item.value);
+  }
+  std::string text;
+  for (const Item& item : head)
+    if (!item.text.empty())
+      text += item.kind == Item::Kind::Section ? fmt::format("; section \"{}\"\n", item.text)
+                                               : fmt::format("; {}\n", item.text);
+  text += "%@A\n";
+  for (const std::string_view code : {kParametersCode, kTitleCode, kSymbols}) text += sections.take(code);
+  text += fmt::format("{}\n{}%\n{}", kLadder, ladder, sections.take(kMessages));
+  return text + sections.takeAll() + "%@E\n";
+}
+
+} // namespace rung::frontend::fanuc

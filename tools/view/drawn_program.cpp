@@ -4,25 +4,17 @@
 #include <algorithm>
 #include <map>
 
-#include "frontend/dialects/fanuc/fanuc.h"
-#include "frontend/dialects/gsk/gsk.h"
-#include "frontend/dialects/gsk/language.h"
 #include "frontend/syntax/word_lexer.h"
-#include "ir/support/diag/source.h"
 #include "tools/report/cross_reference.h"
 
 namespace rung::view {
 namespace {
 
-std::optional<frontend::network::LadderForm> laddersOf(const frontend::Dialect& dialect, SourceManager& sources,
-                                                       std::span<const FileId> files, Diagnostics& diagnostics) {
-  if (&dialect == &frontend::gsk::kGsk)
-    return frontend::network::ladderForm(frontend::gsk::kLanguage, sources, files, diagnostics);
-  const auto isText = [&](FileId file) { return sources.name(file).ends_with(".lad"); };
-  if (&dialect == &frontend::fanuc::kFanuc && !std::ranges::all_of(files, isText)) {
-    diagnostics.report(diag::NoDrawing, sources.range(files[0], 0, 0)) << "FANUC in mnemonic files";
-    return std::nullopt;
-  }
+// The program as ladder text.
+std::optional<frontend::network::LadderForm> laddersOf(const std::optional<frontend::NetworkSource>& networks,
+                                                       SourceManager& sources, std::span<const FileId> files,
+                                                       Diagnostics& diagnostics) {
+  if (networks) return frontend::network::ladderForm(networks->language, sources, files, diagnostics);
   return frontend::network::LadderForm{{files.begin(), files.end()}, {}, {}};
 }
 
@@ -37,18 +29,22 @@ std::optional<Program> drawnProgram(SourceManager& sources, std::span<const File
   auto program = dialect.check(sources, files, options, diagnostics);
   const auto module = diagnostics.errorCount() == before ? program->build() : nullptr;
   if (module == nullptr) return std::nullopt;
-  const auto ladders = laddersOf(dialect, sources, files, diagnostics);
+  const auto networks = program->networks();
+  const std::vector<FileId> written(networks ? networks->files.begin() : files.begin(),
+                                    networks ? networks->files.end() : files.end());
+  const auto ladders = laddersOf(networks, sources, written, diagnostics);
   if (!ladders) return std::nullopt;
   Diagnostics discarded; // the same program: everything has been reported
-  if (!std::ranges::equal(ladders->files, files)) program = dialect.check(sources, ladders->files, options, discarded);
+  if (ladders->files != written) program = dialect.check(sources, ladders->files, options, discarded);
   const report::ModuleReference reference(*module, dialect.shownSpaces);
   return readProgram(sources, {.dialect = &dialect,
+                               .language = networks ? &networks->language : nullptr,
                                .files = ladders->files,
                                .analysis = &program->analysis(),
                                .reference = &reference.get(),
                                .messages = module->messages,
                                .origins = {ladders->networks, ladders->elements},
-                               .authors = {files.begin(), files.end()}});
+                               .authors = written});
 }
 
 std::vector<TableRow> rowsOf(const ir::Module& module) {

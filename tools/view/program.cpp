@@ -8,8 +8,6 @@
 #include <map>
 #include <unordered_map>
 
-#include "frontend/dialects/gsk/gsk.h"
-#include "frontend/dialects/gsk/language.h"
 #include "frontend/ladder/text/drawing.h"
 #include "frontend/network/read/canonical.h"
 #include "ir/support/allowance.h"
@@ -111,7 +109,7 @@ struct Sides {
 class Reader : private SheetListener {
 public:
   Reader(const SourceManager& sources, const Input& input)
-      : sources_(sources), input_(input), isGsk_(input.dialect == &frontend::gsk::kGsk),
+      : sources_(sources), input_(input), language_(input.language),
         names_(*input.dialect, *input.analysis, *input.reference), uses_(*input.reference) {}
   Program run();
 
@@ -151,7 +149,7 @@ private:
 
   const SourceManager& sources_;
   const Input& input_;
-  const bool isGsk_;
+  const frontend::network::Language* const language_; // null: not a program of networks
   std::vector<LadderFile> files_;
   Names names_;
   Texts texts_;
@@ -160,7 +158,7 @@ private:
   Targets targets_;
   std::vector<WaitingRow> coils_;
   std::vector<WaitingRow> marks_;                          // rows of targets
-  std::vector<std::pair<uint32_t, uint32_t>> subprograms_; // GSK: index of the block, target
+  std::vector<std::pair<uint32_t, uint32_t>> subprograms_; // of networks: index of the block, target
   std::vector<Sides> sides_;                               // by entry of uses_
   std::vector<uint32_t> rowIds_;                           // by entry of uses_
   std::vector<NameRow> declared_;
@@ -170,13 +168,13 @@ private:
   std::string comments_; // comments not used yet
 };
 
-// NCT has message texts in the source, GSK in a separate file: 8 x byte + bit + 1 is the bit of A that requests one.
+// NCT numbers message texts; in programs of networks 8 x byte + bit + 1 is the bit of A that requests one.
 void Reader::readTexts() {
   for (const LadderFile& file : files_)
     for (const Declaration& declaration : file.declarations)
       if (declaration.kind == DeclarationKind::Message)
         texts_.emplace(plainNumber(declaration.name.text), declaration.value.text);
-  if (!isGsk_) return;
+  if (language_ == nullptr) return;
   for (const ir::MessageText& message : input_.messages) {
     const uint32_t bit = message.number - 1;
     texts_.emplace(fmt::format("A{}.{}", bit / 8, bit % 8), message.text);
@@ -220,7 +218,7 @@ Place Reader::placeOfElement(SourcePos drawn) const {
 
 // A hint that a conversion writes for what only a command list can express is not a comment of the author.
 bool Reader::isHint(std::string_view text) const {
-  return converted() && frontend::network::parseBlocksHint(frontend::gsk::kLanguage, text);
+  return converted() && frontend::network::parseBlocksHint(*language_, text);
 }
 
 void Reader::comment(std::string_view text) {
@@ -242,7 +240,7 @@ void Reader::readDeclaration(const Declaration& declaration) {
     at = end + 1;
   }
   comments_.clear();
-  if (declaration.kind == DeclarationKind::Message || declaration.kind == DeclarationKind::Button) return;
+  if (frontend::ladder::holdsText(declaration.kind)) return;
   const Named named = names_.find(declaration.name);
   places_.emplace(declared_.size(), named.place);
   declared_.push_back({.key = named.key,
@@ -267,7 +265,7 @@ void Reader::readRung(const LadderFile& file, const frontend::ladder::Rung& rung
       frontend::ladder::readDrawing(sources_, file.file, rung, input_.dialect->findBox);
   const auto placeOf = [this](SourcePos drawn) { return placeOfElement(drawn); };
   program_.figures.push_back(std::move(figure));
-  Sheet sheet = buildSheet({input_.dialect->findBox, names_, texts_, placeOf, isGsk_}, drawing, *this);
+  Sheet sheet = buildSheet({input_.dialect->findBox, names_, texts_, placeOf, language_ != nullptr}, drawing, *this);
   program_.figures[index].sheet = std::move(sheet);
   program_.blocks.push_back({.kind = Block::Kind::Rung, .figure = index});
   if (!subprograms_.empty() && targets_.at(subprograms_.back().second).rung == 0)
@@ -310,8 +308,8 @@ std::string_view withoutName(std::string_view title, std::string_view name) {
   return !said.empty() && whole.ends_with(said) ? text::trimmed(title.substr(colon + 1)) : title;
 }
 
-// The section just before a module, or the last line of comment before a subprogram of GSK, becomes its title. That
-// section is not listed separately then. Comments before a level describe the program.
+// The section just before a module, or the last line of comment before a subprogram of networks, becomes its title.
+// That section is not listed separately then. Comments before a level describe the program.
 void Reader::titleFromSection(Block& block, const frontend::ladder::Module& module) {
   if (program_.blocks.empty()) return;
   const Block& before = program_.blocks.back();
@@ -319,7 +317,7 @@ void Reader::titleFromSection(Block& block, const frontend::ladder::Module& modu
     block.title = withoutName(before.text, block.text);
     if (block.comment.empty()) block.comment = before.comment;
     program_.blocks.pop_back();
-  } else if (before.kind == Block::Kind::Comment && isGsk_ && module.name.size() == 2) {
+  } else if (before.kind == Block::Kind::Comment && language_ != nullptr && module.name.size() == 2) {
     const std::string_view line = std::string_view(before.text).substr(before.text.find_last_of('\n') + 1);
     if (line.size() <= kTitle) block.title = withoutName(line, block.text);
   }
@@ -330,12 +328,12 @@ void Reader::beginModule(const frontend::ladder::Module& module, std::string_vie
   for (const frontend::Word& word : module.name) name.append(name.empty() ? "" : " ").append(word.text);
   Block block{.kind = Block::Kind::Module, .text = name, .comment = std::string(remark), .place = place};
   titleFromSection(block, module);
-  if (!isGsk_) {
+  if (language_ == nullptr) {
     block.text = "Module " + name;
   } else if (const frontend::TargetUse* subprogram = names_.targetAt(module.name.back())) {
     block.text = fmt::format("Subprogram {}", module.name.back().text);
     subprograms_.emplace_back(program_.blocks.size(), targets_.idOf(*subprogram));
-  } else if (const auto level = frontend::gsk::kLanguage.findLevel(name)) {
+  } else if (const auto level = language_->findLevel(name)) {
     block.text = fmt::format("Level {}", *level + 1);
   }
   program_.blocks.push_back(std::move(block));

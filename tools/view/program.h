@@ -104,12 +104,13 @@ struct Origins {
 
 struct Input {
   const frontend::Dialect* dialect = nullptr;
-  std::vector<FileId> files;                         // ladder text without errors
-  const frontend::Analysis* analysis = nullptr;      // of `files`
-  const report::CrossReference* reference = nullptr; // of the program that `files` compile to
-  std::span<const ir::MessageText> messages;         // of the same program
-  Origins origins;                                   // if `files` are a conversion
-  std::vector<FileId> authors;                       // the files that the author wrote
+  const frontend::network::Language* language = nullptr; // of a program of networks
+  std::vector<FileId> files;                             // ladder text without errors
+  const frontend::Analysis* analysis = nullptr;          // of `files`
+  const report::CrossReference* reference = nullptr;     // of the program that `files` compile to
+  std::span<const ir::MessageText> messages;             // of the same program
+  Origins origins;                                       // if `files` are a conversion
+  std::vector<FileId> authors;                           // the files that the author wrote
 };
 
 Program readProgram(const SourceManager& sources, const Input& input);

@@ -10,8 +10,6 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "frontend/dialects/gsk/gsk.h"
-#include "frontend/dialects/gsk/language.h"
 #include "ir/support/diag_render.h"
 #include "tools/view/drawn_program.h"
 
@@ -151,9 +149,10 @@ std::unique_ptr<Drawn> drawProgram(std::unique_ptr<Drawn> drawn, const std::vect
   drawn->program = std::move(*program);
   drawn->module = dialect.compile(drawn->sources, files, {}, drawn->diagnostics);
   FileId first = files[0];
-  if (&dialect == &frontend::gsk::kGsk)
-    first =
-        frontend::network::ladderForm(frontend::gsk::kLanguage, drawn->sources, files, drawn->diagnostics)->files[0];
+  const auto checked = dialect.check(drawn->sources, files, {}, drawn->diagnostics);
+  if (const auto networks = checked->networks())
+    first = frontend::network::ladderForm(networks->language, drawn->sources, networks->files, drawn->diagnostics)
+                ->files[0];
   drawn->ladders.push_back(frontend::ladder::parseLadder(drawn->sources, first, drawn->diagnostics, dialect.findBox));
   return drawn;
 }

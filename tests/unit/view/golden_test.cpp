@@ -57,7 +57,7 @@ void expectRuns(Golden& golden) {
 }
 
 TEST(ViewGolden, All) {
-  Golden golden("tests/golden/view", {".lad", ".pmc"});
+  Golden golden("tests/golden/view", {".lad", ".mne", ".pmc"});
   expectPrograms(golden);
   expectRuns(golden);
 }

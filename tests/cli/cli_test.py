@@ -885,6 +885,19 @@ class Convert(Cli):
         for comment in ("springs clamp", "brake of the vertical axis"):
             self.assertIn(comment, Path(ladder).read_text())
 
+    def test_a_mnemonic_file_there_and_back(self):
+        program = ("%@2\nX9.0 *ESP\n%\n%@3\nEND1\n(* the lamp *)\nRD.NOT *ESP\nRD.STK X9.1\nAND.STK\nWRT Y9.0\nEND2\nEND\n%\n"
+                   "%@4\nA0.0 1000 GUARD\n%\n")
+        ladder, back, again, page = (str(Path(self.folder.name) / name) for name in ("a.lad", "b.mnc", "c.lad", "a.html"))
+        for source in (self.file("lamp.mne", program), self.file("LAMP.MNC", ("\r\n".join(program.split("\n"))).encode("utf-16-le"))):
+            with self.subTest(source=source):
+                self.assertEqual(rungc("convert", source, "--to", "ladder", "-o", ladder).returncode, OK)
+                self.assertEqual(rungc("convert", ladder, "--to", "list", "-o", back).returncode, OK)
+                self.assertEqual(rungc("convert", back, "--to", "ladder", "-o", again).returncode, OK)
+                self.assertEqual(Path(ladder).read_bytes(), Path(again).read_bytes())
+                self.assertEqual(rungc("view", source, "-o", page).returncode, OK)
+                self.assertIn("the lamp", Path(page).read_text())
+
     def test_the_drawing_runs_as_the_list_does(self):
         done = rungc("convert", self.MILL, "--to", "ladder")
         self.assertEqual(done.returncode, OK)
@@ -945,6 +958,13 @@ class Convert(Cli):
     def test_wrong_usage(self):
         self.assertEqual(rungc("convert", self.MILL).returncode, USAGE)
         self.assertEqual(rungc("convert", self.MILL, "--to", "list", "-o", "x.lad").returncode, USAGE)
+        done = rungc("convert", self.MILL, "--to", "ladder", "-o", "x.pmc")
+        self.assertEqual(done.returncode, USAGE)
+        self.assertIn(b"rungc: 'x.pmc' cannot be ladder text: its name must end in .lad\n", done.stderr)
+        done = rungc("convert", self.file("a.mne", "END1\nEND2\nEND\n"), "--to", "list", "-o", "x.lad")
+        self.assertEqual((done.returncode, done.stderr),
+                         (USAGE, b"rungc: 'x.lad' cannot be a command list: its name must end in .mne or .mnc\n"))
+        self.assertEqual(rungc("convert", self.file("a.mne", "END1\nEND2\nEND\n"), "--to", "ladder", "-o", "x.mnc").returncode, USAGE)
 
 
 class HostileInput(Cli):

@@ -44,8 +44,8 @@ bool checkExtension(const ConvertOptions& options, const frontend::Dialect& dial
   const bool toList = options.to == "list";
   const auto ends = [&](std::string_view extension) { return options.out.ends_with(extension); };
   if (toList ? !ends(".lad") : std::ranges::none_of(dialect.extensions, ends)) return true;
-  fmt::print(stderr, "rungc: '{}' cannot be a {}: its name must end in {}\n", options.out,
-             toList ? "command list" : "ladder text",
+  fmt::print(stderr, "rungc: '{}' cannot be {}: its name must end in {}\n", options.out,
+             toList ? "a command list" : "ladder text",
              toList ? fmt::format("{}", fmt::join(dialect.extensions, " or ")) : ".lad");
   return false;
 }

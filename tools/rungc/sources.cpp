@@ -24,9 +24,10 @@
 namespace rung::rungc {
 
 void addSourceOptions(Command command, SourceOptions& options, const std::string& json) {
-  command.option("FILE", options.files,
-                 "Source files in order (.lad, .pmc, .plc), or the folder of a project; - reads standard input; "
-                 "default: the project (rung.toml) of the working directory or of a folder above it");
+  command.option(
+      "FILE", options.files,
+      "Source files in order (.lad, .mne, .mnc, .pmc, .plc), or the folder of a project; - reads standard input; "
+      "default: the project (rung.toml) of the working directory or of a folder above it");
   Option project = command.option("--project", options.projectFile, "Use this project file, or the one in this folder");
   command.flag("--no-project", options.noProject, "Use only the named files, not the project that they belong to")
       .excludes(project);

@@ -9,6 +9,7 @@
 #include <unordered_map>
 
 #include "frontend/ladder/text/drawing.h"
+#include "frontend/network/address.h"
 #include "frontend/network/read/canonical.h"
 #include "ir/support/allowance.h"
 #include "ir/support/check.h"
@@ -135,6 +136,7 @@ private:
   void settle(Link& link) const;
   void settleLinks();
   void addNameTables();
+  std::string keyOfMessage(std::string_view name) const;
   void addMessageTable(DeclarationKind kind, std::string_view title);
   void add(Block::Kind kind, std::string text, std::string_view remark, const Place& place) {
     program_.blocks.push_back({.kind = kind, .text = std::move(text), .comment = std::string(remark), .place = place});
@@ -170,11 +172,13 @@ private:
 
 // NCT numbers message texts; in programs of networks 8 x byte + bit + 1 is the bit of A that requests one.
 void Reader::readTexts() {
-  for (const LadderFile& file : files_)
-    for (const Declaration& declaration : file.declarations)
-      if (declaration.kind == DeclarationKind::Message)
-        texts_.emplace(plainNumber(declaration.name.text), declaration.value.text);
-  if (language_ == nullptr) return;
+  if (language_ == nullptr) {
+    for (const LadderFile& file : files_)
+      for (const Declaration& declaration : file.declarations)
+        if (declaration.kind == DeclarationKind::Message)
+          texts_.emplace(plainNumber(declaration.name.text), declaration.value.text);
+    return;
+  }
   for (const ir::MessageText& message : input_.messages) {
     const uint32_t bit = message.number - 1;
     texts_.emplace(fmt::format("A{}.{}", bit / 8, bit % 8), message.text);
@@ -456,6 +460,16 @@ void Reader::settleLinks() {
   }
 }
 
+// NCT numbers messages; programs of networks give each a bit.
+std::string Reader::keyOfMessage(std::string_view name) const {
+  if (language_ == nullptr) return messageKey(plainNumber(name));
+  const auto text = frontend::network::splitAddress(*language_, name);
+  if (!text || text->bit.size() != 1) return {};
+  const frontend::network::Address bit{text->area, static_cast<uint32_t>(text->byte),
+                                       static_cast<uint8_t>(text->bit[0] - '0'), true};
+  return frontend::network::textOf(*language_, bit);
+}
+
 void Reader::addMessageTable(DeclarationKind kind, std::string_view title) {
   NameTable table{std::string(title), true, {}};
   for (const LadderFile& file : files_) {
@@ -464,7 +478,7 @@ void Reader::addMessageTable(DeclarationKind kind, std::string_view title) {
       NameRow row{.name = std::string(declaration.name.text),
                   .address = std::string(declaration.value.text),
                   .comment = std::string(declaration.comment)};
-      if (kind == DeclarationKind::Message) row.key = messageKey(plainNumber(declaration.name.text));
+      if (kind == DeclarationKind::Message) row.key = keyOfMessage(declaration.name.text);
       if (const auto* entry = uses_.find(row.key)) row.uses = entry->uses;
       table.rows.push_back(std::move(row));
     }

@@ -34,7 +34,9 @@ bool Reading::read() {
   for (const auto& list : lists_) list->readDeclarations(context_);
   for (const auto& file : ladders_) readLadderDeclarations(context_, file);
   for (const auto& list : lists_) list->read(context_, units_);
-  if (!lists_.empty()) units_.endOfList(lastLineOf(context_.sources, lists_.back()->file()));
+  // Lists beside ladders may have declarations only.
+  const bool hasLevels = ladders_.empty() || units_.sawList();
+  if (!lists_.empty() && hasLevels) units_.endOfList(lastLineOf(context_.sources, lists_.back()->file()));
   for (const auto& file : ladders_) readLadder(context_, file, units_);
   reportUndeclared(context_);
   units_.finish(lastLineOf(context_.sources, last_));

@@ -18,6 +18,7 @@ public:
   // Command lists: every network in text order, then the end of each file.
   void add(Network&& network);
   void endOfList(SourceRange lastLine);
+  bool sawList() const { return sawList_; } // whether a list had networks
 
   // Ladder modules: the unit of `module LEVEL1` or `module SUB Pn`.
   uint32_t openLevel(uint32_t level, SourceRange module);

@@ -121,6 +121,17 @@ TEST(FanucConvert, SeveralFilesBecomeOne) {
             "%@4\nA0.0 1000 GUARD\n%\n%@E\n");
 }
 
+TEST(FanucConvert, SectionsBesideLadderText) {
+  const std::vector<File> files = {{"symbols.mne", "%@2\nX9.0 START\n%\n%@4\nA0.0 1000 GUARD\n%\n"},
+                                   {"main.lad", "dialect fanuc\nmodule LEVEL2\nrung\n|--[START]--(A0.0)\n"}};
+  const auto compiled = compileFiles(files);
+  ASSERT_TRUE(compiled->module) << compiled->text();
+  EXPECT_EQ(compiled->module->messages.size(), 1u);
+  const Converted list = convert(files, Form::List);
+  ASSERT_TRUE(list.text);
+  EXPECT_EQ(moduleOf("symbols.mne", *list.text), frontend::test::withoutPlaces(*compiled->module));
+}
+
 TEST(FanucConvert, AConstantIsItsValueInAMnemonicFile) {
   const std::string list =
       toList("dialect fanuc\nconst MOST 0x10\nmodule LEVEL2\nrung\n|--[X9.0]--{NUMEB 1 most D0}\n");

@@ -277,7 +277,7 @@ class Words(Cli):
 
     def test_an_unknown_dialect(self):
         err = self.rungc("check", self.write("s.lad", LAMP.replace("nct", "siemens")), status=WRONG)[1]
-        self.assertIn("unknown dialect 'siemens'; known are nct, gsk and technol", err)
+        self.assertIn("unknown dialect 'siemens'; known are fanuc, gsk, nct and technol", err)
 
     def test_functions_of_gsk_are_suggested(self):
         program = self.write("f.pmc", "FUNC END1\nLD X0.0\nFUNC TMRR\nPRM 1\nOUT R0.0\nFUNC END2\n")

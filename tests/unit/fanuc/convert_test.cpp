@@ -5,14 +5,19 @@
 
 #include <gtest/gtest.h>
 
+#include "frontend/dialects/fanuc/fanuc.h"
 #include "frontend/network/convert/convert.h"
+#include "tests/support/compiled.h"
 #include "tests/support/golden.h"
 #include "tests/support/without_places.h"
-#include "tests/unit/fanuc/compile.h"
 
 namespace rung::frontend::fanuc::test {
 namespace {
 
+using frontend::test::Codes;
+using frontend::test::Compiled;
+using frontend::test::compileFiles;
+using frontend::test::File;
 using frontend::test::listed;
 using network::Form;
 
@@ -49,7 +54,7 @@ std::string toList(const std::string& ladder) {
 }
 
 std::string moduleOf(const std::string& name, const std::string& text) {
-  const auto compiled = compileFiles({{name, text}});
+  const auto compiled = compileFiles(kFanuc, {{name, text}});
   EXPECT_TRUE(compiled->module) << compiled->text() << text;
   return compiled->module ? frontend::test::withoutPlaces(*compiled->module) : "";
 }
@@ -124,7 +129,7 @@ TEST(FanucConvert, SeveralFilesBecomeOne) {
 TEST(FanucConvert, SectionsBesideLadderText) {
   const std::vector<File> files = {{"symbols.mne", "%@2\nX9.0 START\n%\n%@4\nA0.0 1000 GUARD\n%\n"},
                                    {"main.lad", "dialect fanuc\nmodule LEVEL2\nrung\n|--[START]--(A0.0)\n"}};
-  const auto compiled = compileFiles(files);
+  const auto compiled = compileFiles(kFanuc, files);
   ASSERT_TRUE(compiled->module) << compiled->text();
   EXPECT_EQ(compiled->module->messages.size(), 1u);
   const Converted list = convert(files, Form::List);

@@ -186,7 +186,7 @@ check_abi() { # and the check finds every kind of change
 }
 
 check_fanuc() { # programs of others, which FANUC_PROGRAMS names
-  build_some rungc rung-bench-real rung_fanuc_engines
+  build_some rungc rung-bench-real rung_fanuc_engines rung_fanuc_module
   python3 tests/fanuc-programs/fanuc_programs_test.py build/bin
 }
 

@@ -281,8 +281,10 @@ bool isImplicit(const rung_program& program, const BitRange& place, const std::s
   const std::string_view space = program.spaces[place.space.index].name;
   if (dialect == "nct") return place.first < 32;
   if (dialect == "technol") return space == "NCI";
-  const bool hasAxis = lines.find("AXLCTL") != std::string::npos || lines.find("FUNC 46") != std::string::npos;
-  return (space == "R" && place.first >= 1000 * 8 && place.first < 1006 * 8) || space == "T" || space == "C" ||
+  const auto has = [&](std::string_view word) { return lines.find(word) != std::string::npos; };
+  const bool hasAxis = has("AXLCTL") || has("FUNC 46") || has("AXCTL") || has("SUB 53");
+  const uint32_t results = dialect == "fanuc" ? 9000 * 8 : 1000 * 8;
+  return (space == "R" && place.first >= results && place.first < results + 6 * 8) || space == "T" || space == "C" ||
          (hasAxis && (space == "F" || space == "G"));
 }
 

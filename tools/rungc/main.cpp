@@ -11,7 +11,8 @@ int main(int argc, char** argv) {
   namespace cli = rung::cli;
   CommandLine app(
       {.name = "rungc",
-       .description = "Compiler for the PLC programs of CNC machine tools (NCT2xx/3xx, GSK25i, MEFI TECHNOL)",
+       .description =
+           "Compiler for the PLC programs of CNC machine tools (FANUC PMC, NCT2xx/3xx, GSK25i, MEFI TECHNOL)",
        .exitStatus = "0 ok, 1 the program or scenario is wrong, 2 wrong usage, 3 environment",
        .guide = "docs/guide.md",
        .seeAlso = {"rung.toml(5)", "rung-map(5)", "rung-binding(5)", "rung-scenario(5)", "rung-ladder(5)",

@@ -50,7 +50,7 @@ const Row& UnitAssembler::lastEnd() const {
 // An optional level begins with the first network after the level before it. If its end does not follow, the program
 // does not have the level, and these networks are outside of all units; its comments go to what comes next.
 void UnitAssembler::leaveOptional(Gap& next) {
-  if (current_ == kNone || current_ == 0 || !open_.empty() || !language_.levels[current_].optional) return;
+  if (!open_.empty() || !isInOptional()) return;
   Unit& unit = program_.units[current_];
   if (!unit.networks.empty() && !unit.networks.front().incomplete) stray_.push_back(unit.networks.front().range);
   if (!unit.comment.empty()) unit.lead.push_back(commentItem(std::exchange(unit.comment, {})));
@@ -128,7 +128,7 @@ std::string UnitAssembler::isAfter(uint32_t level) const {
 void UnitAssembler::endOrder(uint32_t level, std::string_view before, SourceRange range) {
   stray_.clear(); // networks between the two are misplaced only because of their order
   strayReported_ = false;
-  if (current_ != kNone && language_.levels[current_].optional) current_ = kNone;
+  if (isInOptional()) current_ = kNone;
   context_.diagnostics.report(diag::EndOrder, range) << language_.fullNameOf(language_.endOf(level)) << before;
 }
 
@@ -194,9 +194,11 @@ void UnitAssembler::endSubprogram(Network&& network) {
 
 // Reports the subprogram that is still open at an end.
 void UnitAssembler::closeAll() {
-  if (!open_.empty() && !nestedReported_ && !incomplete_)
+  if (open_.empty()) return;
+  if (!nestedReported_ && !incomplete_)
     context_.diagnostics.report(diag::MissingSpe, program_.units[current_].range)
         << nameOf(language_, program_.units[current_]) << language_.mnemonicOf(Control::Spe);
+  current_ = open_.front().outside;
   open_.clear();
 }
 

@@ -45,6 +45,8 @@ private:
   void giveBackSource(Network& network);
   void nest(SourceRange inner);
   void closeAll();
+  // Whether the open unit is a level that a list need not have.
+  bool isInOptional() const { return current_ < levelCount() && language_.levels[current_].optional; }
   uint32_t levelCount() const { return static_cast<uint32_t>(language_.levels.size()); }
   // The first level after `level` whose end was found, otherwise levelCount().
   uint32_t nextEnded(uint32_t level) const;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "frontend/syntax/page.h"
 #include "ir/support/utf8.h"
 #include "rtlib/text/blanks.h"
 #include "rtlib/text/letters.h"
@@ -95,7 +96,7 @@ SourceLine lineOf(const SourceManager& sources, FileId file, uint32_t number) {
   const auto offset = static_cast<size_t>(text.data() - sources.text(file).data());
   const size_t mark = number == 1 && text.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0;
   text.remove_prefix(mark);
-  return {number, text, sources.position(file, offset + mark)};
+  return {number, withoutTrailingSpace(text), sources.position(file, offset + mark)};
 }
 
 } // namespace rung::frontend::fanuc

@@ -28,7 +28,7 @@ inline bool hasSymbols(const Section& section) {
 // A file without any code is one section of ladder. The text before the first code is a comment.
 std::vector<Section> sectionsOf(const SourceManager& sources, FileId file);
 
-// A line of a file.
+// A line of a file, without blanks and CR at its end.
 SourceLine lineOf(const SourceManager& sources, FileId file, uint32_t number);
 // Calls take(line) for each line of a section.
 template <class Take>

@@ -88,6 +88,9 @@ int32_t locate(const rung_instance& instance, const rung_program& program, const
                 wanted.name, program.name);
   if (read.type == RUNG_TYPE_TEXT || read.ref.kind == runtime::RefKind::Constant)
     return fail(RUNG_WRONG_TYPE, "%s is a text or a constant: it cannot be forced", wanted.name);
+  if (instance.environment->control().isConstant(program, read.ref))
+    return fail(RUNG_WRONG_TYPE, "%s is a constant of the control, in the code of the program: it cannot be forced",
+                wanted.name);
   places.push_back({.ref = read.ref, .bits = bitsOf(read, wanted.value), .name = wanted.name});
   const LocatedCell written = locateCell(*instance.environment, program, {wanted.name, RUNG_WRITE | access});
   if (written.state != CellState::Gone && written.state != CellState::Retyped && !(written.ref == read.ref))

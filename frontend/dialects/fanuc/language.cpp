@@ -11,6 +11,7 @@
 #include "ir/support/check.h"
 #include "ir/support/diag/operand.h"
 #include "ir/support/diag/pmc.h"
+#include "rtlib/nc/fanuc/model.h"
 #include "rtlib/nc/fanuc/signals.h"
 
 namespace rung::frontend::fanuc {
@@ -50,6 +51,7 @@ int64_t mostNumber(const network::Language& language, const Row& row) {
 }
 
 // R9091.0 and .1.
+static_assert(nc::fanuc::kConstantRelays.inZ == kClockByte && nc::fanuc::kConstantRelays.mask == 0b11);
 std::optional<bool> constantOf(const network::Language& language, const network::Address& address) {
   const network::Address system = systemArea(pmcOf(language));
   if (address.area != system.area || address.byte != system.byte + kClockByte || address.bit > 1) return std::nullopt;

@@ -165,6 +165,12 @@ public:
   // Defines a message as the machine's configuration does, before the first power-on. False: the dialect has message
   // texts only in the program.
   virtual bool define(const DefinedMessage& message) { return (void)message, false; }
+  // Whether programs have the value of this place, or of a part of it, in their code: what is written or forced there
+  // has no effect.
+  virtual bool isConstant(const rung_program& program, const runtime::Ref& place) const {
+    return (void)program, (void)place, false;
+  }
+
   // Converts a message of the program's queue to the form that a host reads: the plain number, and the operation that
   // applies.
   virtual rung_message outward(const rung_message& message) const noexcept { return message; }

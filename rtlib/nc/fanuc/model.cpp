@@ -25,6 +25,7 @@ const pmc::Model& model() {
                                .axisGroups = axisGroups(),
                                .services = kServices,
                                .windowRefused = kWindowNoFunction,
+                               .constants = kConstantRelays,
                                .inverted = true,
                                .messages = pmc::MessageRule::ByTextList};
   return made;

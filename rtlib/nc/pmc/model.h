@@ -35,6 +35,12 @@ enum class MessageRule : uint8_t {
   ByTextList, // the number begins its text in the program; shown while the bit and the display (@DISPB) are 1
 };
 
+// Bits that the code of programs has as constants: in Z where the control has that area, otherwise in R.
+struct ConstantRelays {
+  uint32_t inR = 0, inZ = 0; // bytes
+  uint8_t mask = 0;          // 0: none
+};
+
 struct Model {
   const SignalTable& (*signals)() = nullptr;
   std::array<FunctionSignals, kFunctionLines> functions = {}; // by FunctionLine
@@ -42,7 +48,8 @@ struct Model {
   std::span<const AxisGroup> axisGroups;
   std::span<const ServiceRow> services; // by ServiceKind, from 1
   int64_t windowRefused = 0;            // end code of a window request that no CNC answers
-  bool inverted = false;                // bits of overrides are 0 where the value's bit is 1
+  ConstantRelays constants;
+  bool inverted = false; // bits of overrides are 0 where the value's bit is 1
   MessageRule messages = MessageRule::ByBit;
 
   const ServiceRow& service(ServiceKind kind) const { return services[static_cast<size_t>(kind) - 1]; }

@@ -87,6 +87,16 @@ std::optional<runtime::Ref> PmcControl::signal(const rung_program& program, std:
   return runtime::intRef(space, found->byteOffset, bytes * 8);
 }
 
+bool PmcControl::isConstant(const rung_program& program, const runtime::Ref& place) const {
+  const pmc::ConstantRelays& constants = model_->constants;
+  const uint32_t larger = runtime::findSpace(program, "Z");
+  const bool isInZ = larger != RUNG_NONE && program.spaces[larger].byte_count > constants.inZ;
+  const uint32_t byte = isInZ ? constants.inZ : constants.inR;
+  if (constants.mask == 0 || place.space != (isInZ ? larger : runtime::findSpace(program, "R"))) return false;
+  if (place.kind == runtime::RefKind::Bit) return place.byte == byte && (constants.mask >> place.bit & 1) != 0;
+  return place.byte <= byte && byte < place.byte + place.width / 8u;
+}
+
 core::ServiceReply PmcControl::refuse(const core::ServiceRequest& request) const noexcept {
   const auto kind = static_cast<pmc::ServiceKind>(request.name->kind);
   if (kind != pmc::ServiceKind::ReadWindow && kind != pmc::ServiceKind::WriteWindow) return Control::refuse(request);

@@ -36,6 +36,7 @@ public:
   std::string text(const ShownMessage& message) const override;
   // Whether a message is shown that puts the CNC into the alarm state. Allocates nothing.
   bool showsAlarm(const runtime::Instance& instance) const noexcept { return messages_.showsAlarm(instance); }
+  bool isConstant(const rung_program& program, const runtime::Ref& place) const override;
   // The second level is cut into slots of 8 ms.
   bool runsInSlots() const override { return true; }
   PmcFunctions* functions(uint32_t channel) override { return channel == 0 ? &functions_ : nullptr; }

@@ -198,7 +198,9 @@ TEST(Xref, ListsWhatScenariosDo) {
     };
     scenario::run(scenario.value(), options);
     expectNothing(found);
-    if (!isLarge()) EXPECT_GT(found.held, 300u);
+    if (!isLarge()) {
+      EXPECT_GT(found.held, 300u);
+    }
   }
 }
 

@@ -139,10 +139,10 @@ TEST(FanucConvert, SectionsBesideLadderText) {
 
 TEST(FanucConvert, AConstantIsItsValueInAMnemonicFile) {
   const std::string list =
-      toList("dialect fanuc\nconst MOST 0x10\nmodule LEVEL2\nrung\n|--[X9.0]--{NUMEB 1 most D0}\n");
+      toList("dialect fanuc\nconst MOST 0016\nmodule LEVEL2\nrung\n|--[X9.0]--{NUMEB 1 most D0}\n");
   EXPECT_NE(list.find("NUMEB"), 0u);
-  EXPECT_NE(list.find("SUB        40\n1\n0x10\nD0\n"), std::string::npos) << list;
-  EXPECT_NE(list.find("; const MOST 0x10\n"), std::string::npos) << list;
+  EXPECT_NE(list.find("SUB        40\n1\n0016\nD0\n"), std::string::npos) << list;
+  EXPECT_NE(list.find("; const MOST 0016\n"), std::string::npos) << list;
 }
 
 TEST(FanucConvert, ANameThatLadderTextCannotDeclareIsAComment) {

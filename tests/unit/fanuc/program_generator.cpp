@@ -1,6 +1,7 @@
 // Programs at random.
 #include "tests/unit/fanuc/program_generator.h"
 
+#include <algorithm>
 #include <sstream>
 
 #include <fmt/format.h>

@@ -30,7 +30,7 @@ TEST_P(PmcGolden, AllPrograms) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Dialects, PmcGolden, testing::Values(&fanuc::kFanuc, &gsk::kGsk),
-                         [](const auto& info) { return std::string(info.param->name); });
+                         [](const auto& tested) { return std::string(tested.param->name); });
 
 } // namespace
 } // namespace rung::frontend::network::test

@@ -160,7 +160,7 @@ protected:
 };
 
 INSTANTIATE_TEST_SUITE_P(Dialects, PmcTable, testing::Values(&kLists[0], &kLists[1]),
-                         [](const auto& info) { return std::string(info.param->dialect->name); });
+                         [](const auto& tested) { return std::string(tested.param->dialect->name); });
 
 TEST_P(PmcTable, AgreesWithTheInventory) {
   std::map<std::string_view, const LoweredRow*> rows;
@@ -224,7 +224,9 @@ TEST_P(PmcTable, DataEndInTheirArea) {
   for (const LoweredRow* row : plainRows()) {
     for (size_t i = 0; i < row->info.operands.size(); ++i) {
       const OperandKind& kind = kindOf(row->info.operands[i]);
-      const uint32_t bytes = kind.length == Length::OfRow ? row->recordBytes : kind.least != 0 ? kind.least : kind.bytes;
+      const uint32_t bytes = kind.length == Length::OfRow ? row->recordBytes
+                             : kind.least != 0            ? kind.least
+                                                          : kind.bytes;
       const bool isFixed = kind.length == Length::OfRow || kind.length == Length::OfKind;
       if (kind.parse != OperandClass::Value || !isFixed || bytes < 2 || (kind.constant && !kind.either)) continue;
       ++tried;

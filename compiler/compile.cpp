@@ -117,7 +117,6 @@ Result<std::vector<FileId>> addFiles(SourceManager& sources, const std::vector<s
       files.push_back(sources.addBytes("<stdin>", std::string(std::istreambuf_iterator<char>(std::cin), {})));
       continue;
     }
-    if (std::ranges::count(names, name) > 1) return failure(fmt::format("'{}' is named twice", name));
     Result<FileId> file = sources.addFile(name);
     if (!file.ok()) return failure(fmt::format("cannot read '{}': {}", name, file.error()));
     files.push_back(file.value());

@@ -101,11 +101,6 @@ class Fanuc(unittest.TestCase):
             said = self.run_rungc("test", "lamp.scn", status=WRONG)[0]
             self.assertIn(f"lamp.scn:9: {name} is a constant of the control, in the code of the program: it cannot be forced", said)
 
-    def test_a_file_named_twice(self):
-        self.write("symbols.mne", "%@2\nX9.5 DOOR\n%\n")
-        said = self.run_rungc("check", "symbols.mne", "symbols.mne", "lamp.mne", status=3)[1]
-        self.assertEqual(said, "rungc: 'symbols.mne' is named twice\n")
-
     def test_xref_by_symbols_and_places(self):
         table = self.run_rungc("xref", "lamp.mne")[0]
         self.assertIn(f'RUN (R1.0)\n  written  rung 1 "the latch", lamp.mne:{LATCH}\n', table)

@@ -84,7 +84,7 @@ TEST(ProgramFiles, AreThoseOfAllExamples) {
   int folders = 0;
   for (const fs::directory_entry& entry : fs::directory_iterator("examples"))
     folders += entry.is_directory() && fs::exists(entry.path() / "rung.toml") ? 1 : 0;
-  EXPECT_EQ(folders, 8);
+  EXPECT_EQ(folders, 9);
 }
 
 } // namespace

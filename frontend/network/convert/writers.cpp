@@ -93,17 +93,27 @@ std::string commandText(const Language& language, Command command, std::string_v
   return operand.empty() ? std::string(name) : fmt::format("{:<4} {}", name, operand);
 }
 
+namespace {
+
+// Ladder text has no tabs.
+std::string withoutTabs(std::string text) {
+  std::ranges::replace(text, '\t', ' ');
+  return text;
+}
+
+} // namespace
+
 void GapPage::declaration(const Item& item) {
   const bool isText = item.kind == Kind::Message || item.kind == Kind::Data;
   if (!canBeDeclared(item.text) || (!isText && !canBeDeclared(item.value)))
-    return comment(fmt::format("symbol {} {}", item.text, item.value));
+    return comment(withoutTabs(fmt::format("symbol {} {}", item.text, item.value)));
   const Table& table = item.kind == Kind::Message ? kMessages : item.kind == Kind::Data ? kData : kNames;
   const std::string_view keyword = item.kind == Kind::Message ? "message"
                                    : item.kind == Kind::Data  ? "data"
                                    : item.kind == Kind::Const ? "const"
                                                               : "symbol";
   const std::string_view quote = isText ? "\"" : "";
-  lines_.row(table, {std::string(keyword), item.text, fmt::format("{0}{1}{0}", quote, item.value)},
+  lines_.row(table, {std::string(keyword), item.text, withoutTabs(fmt::format("{0}{1}{0}", quote, item.value))},
              remark(item.comment));
 }
 

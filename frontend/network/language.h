@@ -71,7 +71,7 @@ struct Row {
   bool built = true;        // otherwise it is known, and refused by name
   // Reports what is wrong although the kinds and ranges of the operands are right; may be null.
   void (*check)(Context& context, const Network& network) = nullptr;
-  int8_t direction = -1;    // the condition that is 0 to read a table and 1 to write it; what is read may be an input
+  int8_t direction = -1; // the condition that is 0 to read a table and 1 to write it; what is read may be an input
 };
 
 // The statements of a list (P12). Declarations are allowed in lists as in ladder text, for conversions.

@@ -14,7 +14,7 @@ struct Compiled {
   Diagnostics diagnostics;
   std::unique_ptr<ir::Module> module;
 
-  // "LINE CODE" of every report, in the order of the lines; "-" where there is no place.
+  // "LINE CODE" of every report, in the order of the lines; "-" in place of the line where a report has none.
   std::vector<std::string> codes() const {
     std::vector<std::string> result;
     for (const Diagnostic* d : diagnostics.sorted()) {

@@ -6,15 +6,13 @@
 
 namespace rung::nc::fanuc {
 
-// Completion codes.
+// Completion codes. -10 (running) and -1 (busy) are not given: a request waits (F19).
 enum WindowEnd : int16_t {
   kWindowDone = 0,
   kWindowNoFunction = 1,
   kWindowBadData = 2,   // wrong data, or the CNC does not have the function
   kWindowBadNumber = 3, // axis or number
   kWindowBadForm = 5,   // the value does not fit
-  kWindowRunning = -10, // ACT must stay 1
-  kWindowBusy = -1,     // another low-speed request runs
 };
 
 inline constexpr uint32_t kWindowsOfPath = 1000;

@@ -6,28 +6,50 @@
 
 constexpr uint32_t kSlotMs = 8;
 
-// A byte that the ladder names: in memory, or its bits by their numbers (-1: not named).
-struct Place {
-  char area;
-  unsigned byte;
-  int inMemory;
-  int bits[8];
+template <int n>
+struct Of;
+template <>
+struct Of<1> {
+  using S = int8_t;
+  using U = uint8_t;
 };
-
-template <int n> struct Of;
-template <> struct Of<1> { using S = int8_t; using U = uint8_t; };
-template <> struct Of<2> { using S = int16_t; using U = uint16_t; };
-template <> struct Of<4> { using S = int32_t; using U = uint32_t; };
-template <int n> static inline int64_t load(const uint8_t* p) { typename Of<n>::S v; std::memcpy(&v, p, n); return v; }
-template <int n> static inline uint32_t loadU(const uint8_t* p) { typename Of<n>::U v; std::memcpy(&v, p, n); return v; }
-template <int n> static inline void store(uint8_t* p, int64_t x) { const auto v = static_cast<typename Of<n>::U>(x); std::memcpy(p, &v, n); }
+template <>
+struct Of<2> {
+  using S = int16_t;
+  using U = uint16_t;
+};
+template <>
+struct Of<4> {
+  using S = int32_t;
+  using U = uint32_t;
+};
+template <int n>
+static inline int64_t load(const uint8_t* p) {
+  typename Of<n>::S v;
+  std::memcpy(&v, p, n);
+  return v;
+}
+template <int n>
+static inline uint32_t loadU(const uint8_t* p) {
+  typename Of<n>::U v;
+  std::memcpy(&v, p, n);
+  return v;
+}
+template <int n>
+static inline void store(uint8_t* p, int64_t x) {
+  const auto v = static_cast<typename Of<n>::U>(x);
+  std::memcpy(p, &v, n);
+}
 static inline bool at(const uint8_t& byte, int bit) { return byte >> bit & 1; }
 static inline void to(uint8_t& byte, int bit, bool v) { byte = static_cast<uint8_t>((byte & ~(1 << bit)) | v << bit); }
-template <int n> static inline void flags(uint8_t& r, int64_t exact) {
+template <int n>
+static inline void flags(uint8_t& r, int64_t exact) {
   const int64_t kept = static_cast<typename Of<n>::S>(exact);
   r = static_cast<uint8_t>((r & ~0x23) | (kept == 0) | (kept < 0) << 1 | (kept != exact) << 5);
 }
-struct Counter { bool before, w; };
+struct Counter {
+  bool before, w;
+};
 static inline bool count(Counter& c, bool cn0, bool down, bool reset, bool act, unsigned preset, uint8_t* value) {
   const unsigned first = cn0, v = loadU<2>(value);
   if (reset) {
@@ -35,23 +57,30 @@ static inline bool count(Counter& c, bool cn0, bool down, bool reset, bool act, 
     c.w = false;
   } else if (act && !c.before) {
     unsigned next;
-    if (down) next = v <= first ? preset : v - 1;
-    else next = v >= preset ? first : v + 1;
+    if (down)
+      next = v <= first ? preset : v - 1;
+    else
+      next = v >= preset ? first : v + 1;
     store<2>(value, next);
     c.w = next == (down ? first : preset);
   }
   c.before = act;
   return c.w;
 }
-struct Timer { bool on; uint32_t ms; };
+struct Timer {
+  bool on;
+  uint32_t ms;
+};
 static inline bool onDelay(Timer& t, bool act, uint32_t presetMs) {
   t.ms = act && t.on ? t.ms + kSlotMs : 0;
   t.on = act;
   return act && t.ms >= presetMs;
 }
 static inline bool offDelay(Timer& t, bool act, uint32_t presetMs) {
-  if (act) t = {true, 0u - kSlotMs}; // the first scan with ACT=0 is 0 ms after its beginning
-  else if (t.on) t.ms += kSlotMs, t.on = t.ms < presetMs;
+  if (act)
+    t = {true, 0u - kSlotMs}; // the first scan with ACT=0 is 0 ms after its beginning
+  else if (t.on)
+    t.ms += kSlotMs, t.on = t.ms < presetMs;
   return t.on;
 }
 static inline bool toDecimal(uint8_t* to, int bytes, int64_t value, uint8_t& r) {
@@ -122,8 +151,10 @@ static bool axis(Axis& state, bool reset, bool act, const uint8_t* data, uint8_t
     return state = Axis::Sent, false;
   }
   const bool out = state == Axis::Sent ? isReady : act;
-  if (out) state = Axis::Done;
-  else if (state == Axis::Done) state = Axis::Idle;
+  if (out)
+    state = Axis::Done;
+  else if (state == Axis::Done)
+    state = Axis::Idle;
   return out;
 }
 static inline uint32_t unitMs(uint32_t code, uint32_t usual) {

@@ -21,6 +21,7 @@
 #include "rtlib/load/program_info.h"
 #include "rtlib/load/so_engine.h"
 #include "rtlib/run/instance.h"
+#include "tools/bench/real/place.h"
 
 namespace {
 
@@ -41,14 +42,6 @@ Type* symbol(void* library, const char* name) {
 // A straight-line form (straight.py).
 class Straight {
 public:
-  // As in functions.h.
-  struct Place {
-    char area;
-    unsigned byte;
-    int inMemory;
-    int bits[8];
-  };
-
   // The library stays loaded: profilers look names up at exit.
   explicit Straight(const std::string& path)
       : library_(dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL)), scan(symbol<void()>(library_, "scan")),
@@ -84,7 +77,7 @@ class Both {
 public:
   Both(const std::string& program, const std::string& straight, uint64_t seed)
       : engine_(loaded(program)), ours_(*engine_), straight_(straight), random_(seed), quiet_(seed == 0) {
-    for (const Straight::Place* place = straight_.places; place->area != 0; ++place) {
+    for (const Place* place = straight_.places; place->area != 0; ++place) {
       if (place->area == 'X' || place->area == 'F') inputs_.push_back(place);
       if (isIn(kCompared, place->area) && !isOfTheControl(*place)) compared_.push_back(place);
       if (!quiet_ && isIn(kRetained, place->area)) write(*place, random_() % 4 == 0 ? byte() : 0);
@@ -108,7 +101,7 @@ public:
   // Throws std::runtime_error at the first difference.
   void compare(size_t scan) const {
     if (ours_.faulted()) throw std::runtime_error("the program has stopped: " + ours_.faultText());
-    for (const Straight::Place* place : compared_) {
+    for (const Place* place : compared_) {
       const uint8_t mine = ours_.memory().readByte(spaceOf(place->area), place->byte);
       const uint8_t theirs = straight_.get(*place, mine);
       if (mine != theirs)
@@ -124,12 +117,10 @@ private:
     if (engine == nullptr) throw std::runtime_error(error);
     return engine;
   }
-  static bool isOfTheControl(const Straight::Place& place) {
-    return place.area == 'R' && place.byte >= kFirstSystemRelay;
-  }
+  static bool isOfTheControl(const Place& place) { return place.area == 'R' && place.byte >= kFirstSystemRelay; }
   uint8_t byte() { return static_cast<uint8_t>(random_()); }
   uint32_t spaceOf(char area) const { return runtime::findSpace(engine_->program(), std::string(1, area).c_str()); }
-  void write(const Straight::Place& place, uint8_t value) {
+  void write(const Place& place, uint8_t value) {
     ours_.memory().writeByte(spaceOf(place.area), place.byte, value);
     straight_.put(place, value);
   }
@@ -139,7 +130,7 @@ private:
   Straight straight_;
   std::mt19937_64 random_;
   bool quiet_;
-  std::vector<const Straight::Place*> inputs_, compared_;
+  std::vector<const Place*> inputs_, compared_;
 };
 
 struct Counted {

@@ -5,7 +5,7 @@ them. A scan is level 1 and the whole of level 2. Requests to the CNC stay unans
 
 The shared object exports
   void scan()                  one scan, 8 ms after the one before
-  const Place places[]         the bytes that the ladder names (functions.h); area 0 behind the last one
+  const Place places[]         the bytes that the ladder names (place.h); area 0 behind the last one
   bool* bits()                 the bits that are held as bytes
   uint8_t* area(char letter)   the bytes that are held as the control has them
 """
@@ -296,7 +296,7 @@ class Writer:
         for name, part in [*((f"P{number}", part) for number, part in self.ladder.subprograms.items()), *self.ladder.levels.items()]:
             body = self.part(part)
             functions.append(f"static __attribute__((noinline)) void {name}() {{\n  bool v = false; (void)v;\n  {body}\n}}\n")
-        out = ['#include "functions.h"']
+        out = ['#include "functions.h"', '#include "place.h"']
         out += [f"static uint8_t {area}[{size + 32}];" for area, size in AREA_BYTES.items()]
         out.append(f"static bool B[{len(self.bits) + 1}];")
         out += [f"static {kind} {name}s[{self.counts[name] + 1}];" for name, kind in (("timer", "Timer"), ("counter", "Counter"), ("w", "bool"), ("request", "Request"), ("axis", "Axis"))]

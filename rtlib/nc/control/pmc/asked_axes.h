@@ -13,8 +13,8 @@ public:
   // The model outlives it.
   explicit PmcAskedAxes(const pmc::Model& model) : model_(&model), groups_(model) {}
 
-  // From now on the program commands the axis by a group; both count from 0. False: there is no such
-  // axis or group.
+  // From now on the program commands the axis by a group; both count from 0. False if the CNC does not
+  // have the axis or the group.
   bool setGroup(uint32_t axis, uint32_t group);
   bool any() const { return served_ != 0; }
   // At power-on: whatever the axes are doing, the program has not commanded it.

@@ -80,8 +80,8 @@ private:
     return places_->display != RUNG_NONE && instance.memory().readByte(places_->display, 0) != 0;
   }
   uint32_t shift(const runtime::Instance& instance) const noexcept;
-  // The text's number and key for an A bit, from 1; number 0: there is no text. `key` is the number of the text in the
-  // program's table.
+  // The number and the key of an A bit's text, from 1; the number is 0 for a bit without a text. `key` is the number of
+  // the text in the program's table.
   struct Known {
     uint32_t number = 0, key = 0;
   };

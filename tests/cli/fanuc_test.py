@@ -110,6 +110,25 @@ class Fanuc(unittest.TestCase):
             self.assertEqual((entry["name"], entry["address"]), ("RUN", "R1.0"))
             self.assertEqual([use["line"] for use in entry["read"]], [LATCH, TIMER, CALL])
 
+    def test_xref_lists_the_readers_of_bits_that_never_change(self):
+        self.write("constant.mne", "SUB 1\nRD R9091.1\nWRT Y9.0\nRD R9091.0\nOR R9091.1\nWRT Y9.1\nRD R9091.5\nWRT Y9.2\nSUB 2\nSUB 64\n")
+        said = self.run_rungc("xref", "constant.mne", "--place", "R9091.0", "--place", "R9091.1", "--place", "R9091.5")[0]
+        self.assertEqual(said, """R9091.0
+  written  by the control or the machine
+  read     rung 2, constant.mne:4
+
+R9091.1
+  written  by the control or the machine
+  read     rung 1, constant.mne:2
+           rung 2, constant.mne:4
+
+R9091.5
+  written  by the control or the machine
+  read     rung 3, constant.mne:7
+""")
+        self.write("rung.toml", 'dialect = "fanuc"\nfiles = ["constant.mne"]\n')
+        self.assertIn("  read     rung 1, constant.mne:2\n", self.run_rungc("explain", "R9091.1")[0])
+
     def test_explain_what_is_at_a_position(self):
         said = self.run_rungc("explain", f"lamp.mne:{LATCH}:4")[0]
         for part in ("start: read here", "start key", "declared at lamp.mne:5:6", "START (X9.0)"):

@@ -74,7 +74,9 @@ bool isSymbols(std::span<const std::string_view> lines) {
 }
 
 bool hasSections(std::span<const std::string_view> lines) {
-  return std::ranges::any_of(lines, [](std::string_view line) { return line.starts_with("%@"); });
+  return std::ranges::any_of(lines, [](std::string_view line) {
+    return line.size() > 2 && line.starts_with("%@") && (text::isDigit(line[2]) || text::isLetter(line[2]));
+  });
 }
 
 std::optional<ControlFile> controlFileOf(std::span<const std::string_view> lines) {
@@ -105,10 +107,10 @@ struct Word {
   std::string_view what;
 };
 
+constexpr std::string_view kOtherDialect = "a source of Rung in another dialect, which its first statement names";
 constexpr Word kWords[] = {
     {"FUNC", kGskList},
     {"PRM", kGskList},
-    {"dialect", "a source of Rung in another dialect, which its first statement names"},
     {"MODULE_MAIN", "a TECHNOL source: name it .plc, or say --dialect technol"},
     {"ORGANIZATION_BLOCK", "a STEP 7 source of a Siemens control, which Rung does not read"},
     {"FUNCTION_BLOCK", "a source of another PLC (STEP 7 or IEC 61131-3), which Rung does not read"},
@@ -137,6 +139,7 @@ std::string_view foreignText(std::string_view text) {
   const std::vector<std::string_view> lines = linesOf(text);
   if (lines.empty() || hasSections(lines)) return {};
   if (const auto kind = controlFileOf(lines)) return kControlFiles[static_cast<size_t>(*kind)];
+  if (text::equalsIgnoringCase(wordOf(lines[0]), "dialect")) return kOtherDialect;
   if (lines[0].starts_with("<")) return xmlOf(text);
   if (isPartProgram(lines)) return kPartProgram;
   if (std::ranges::any_of(lines, [](std::string_view line) { return isNumbered(line, 5, "QPALTS"); }))

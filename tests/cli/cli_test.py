@@ -999,6 +999,27 @@ class HostileInput(Cli):
             self.assertIn(said, done.stderr)
             self.assertIn(b"[foreign-file]", done.stderr)
 
+    def test_what_a_text_is_whose_name_does_not_say_it(self):
+        for name, contents, said in (("CNC-PARA.TXT", "%\nN00000Q1P00000010\nN00001Q1P0\n%\n", "is parameters of the CNC, not of the PMC"),
+                                     ("O0001.NC", "%\nO0001 (PART)\nG0 X0\nM30\n%\n", "is a part program (G code)"),
+                                     ("ladder.txt", "%PDF-1.4\nstream\n", "is a PDF document: a printed ladder"),
+                                     ("main.txt", "LD X0.0\nOUT Y0.0\nFUNC END1\nFUNC END2\n", "is a command list of a GSK control: name it .pmc, or say --dialect gsk")):
+            done = rungc("check", self.file(name, contents))
+            self.assertEqual(done.returncode, WRONG)
+            self.assertIn(f"{name}' {said}".encode(), done.stderr)
+            self.assertIn(b"[foreign-file]", done.stderr)
+
+    def test_a_bare_list_says_whose_it_is(self):
+        for contents, said in (("(* the lamp *)\nN00001:\nRD X9.0\nWRT Y9.0\nSUB 1\n", b"note: it is a command list of a FANUC control: name it .mne, or say --dialect fanuc"),
+                               ("LD X0.0\nOUT Y0.0\n", b"note: it is a command list of a GSK control: name it .pmc, or say --dialect gsk")):
+            done = rungc("check", self.file("list.txt", contents))
+            self.assertEqual(done.returncode, WRONG)
+            self.assertIn(b"[missing-dialect]", done.stderr)
+            self.assertIn(said, done.stderr)
+        done = rungc("check", self.file("script.txt", "%@ format\nprint %@3\n"))
+        self.assertIn(b"[missing-dialect]", done.stderr)
+        self.assertNotIn(b"mnemonic file", done.stderr)
+
     def test_limits_of_sources(self):
         chain = "".join(f"symbol S{i} S{i + 1},#1\n" for i in range(5000))
         done = self.survives(self.file("chain.lad", "dialect nct\n" + chain + "symbol S5000 5100\nmodule MAIN\n"))

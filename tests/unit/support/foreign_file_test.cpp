@@ -52,7 +52,9 @@ TEST(ForeignFile, Programs) {
 TEST(ForeignFile, MnemonicFilesOfAnyName) {
   EXPECT_TRUE(isMnemonicFile("; made by a linker\n%@3\nRD X8.4\n"));
   EXPECT_FALSE(isMnemonicFile("%\nO1234\n"));
+  EXPECT_TRUE(isMnemonicFile("%@A\n"));
   EXPECT_FALSE(isMnemonicFile(""));
+  EXPECT_FALSE(isMnemonicFile("%@ prints an address\n%@\n%@-3\necho %@3\n")); // a script
 }
 
 TEST(ForeignFile, BinaryFilesAreNamedWithTheWayToAMnemonicFile) {

@@ -115,11 +115,14 @@ struct AreaInfo {
   Presets presets{};
   uint32_t readOnly = UINT32_MAX;     // bytes from this one on are written by the control alone
   uint32_t system = UINT32_MAX;       // bytes from this one on belong to the control
+  bool shared = false;                // with the other programs of the control
   std::string_view instead{};         // what to write instead, for a letter that other languages use for bits
   std::span<const ByteRange> parts{}; // the bytes that exist, ascending; empty: all
 
   // Whether what a coil writes is visible outside of contacts and functions.
   constexpr bool seenOutside() const { return use == AreaUse::Output || shown; }
+  // Whether others than the program may read and write a byte.
+  constexpr bool isUsedOutside(uint32_t byte) const { return shared || byte >= system; }
   // The number of bytes from `byte` to the end of its part; 0 if it does not exist.
   constexpr uint32_t room(uint64_t byte) const {
     if (parts.empty()) return byte < bytes ? bytes - static_cast<uint32_t>(byte) : 0;
@@ -204,6 +207,7 @@ struct Language {
   std::string_view nameMarks{}; // characters of names beside letters, digits and _; if any, a name may begin with all
   bool namesIgnoreCase = false;
   bool hexadecimal = true;            // constants may be hexadecimal: 0x1F
+  bool dummyCoils = false;            // one bit of memory is the coil of all outputs that nothing needs
   bool cutsConstants = false;         // of one that is too large for its length the low bytes count, with a warning
   Diag undeclared = diag::BadOperand; // reported for a name that is not declared
   bool needsProgramEnd = true;        // if it has an end of the program

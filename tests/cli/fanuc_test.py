@@ -110,6 +110,24 @@ class Fanuc(unittest.TestCase):
             self.assertEqual((entry["name"], entry["address"]), ("RUN", "R1.0"))
             self.assertEqual([use["line"] for use in entry["read"]], [LATCH, TIMER, CALL])
 
+    def test_what_others_read_or_write_is_no_mistake(self):
+        symbols = "%@2-C\nE10.0 ASKED\nE10.1 GIVEN\nR9010.0 OWN\nR10.0 ALONE\nR10.1 UNSEEN\n%\n"
+        self.write("others.mne", symbols + "%@3\nSUB 1\nRD ASKED\nAND ALONE\nWRT GIVEN\nRD GIVEN\nWRT UNSEEN\nSUB 2\nSUB 64\n%\n")
+        said = self.run_rungc("check", "others.mne")[1]
+        self.assertIn("'ALONE' is read, but nothing writes it [never-written]", said)
+        self.assertIn("'UNSEEN' is written, but nothing reads it [never-read]", said)
+        self.assertNotIn("ASKED' is", said)
+        self.write("others.mne", symbols + "%@3\nSUB 1\nRD X9.0\nWRT GIVEN\nWRT OWN\nSUB 2\nSUB 64\n%\n")
+        said = self.run_rungc("check", "others.mne")[1]
+        self.assertNotIn("never-read", said)
+
+    def test_a_dummy_coil_is_one_warning(self):
+        coils = "".join(f"RD X9.{i}\nWRT R7.0\n" for i in range(5))
+        self.write("dummy.mne", f"SUB 1\n{coils}RD R7.0\nWRT Y9.0\nSUB 2\nSUB 64\n")
+        self.assertEqual(self.run_rungc("check", "dummy.mne")[1].count("R7.0 is driven by two coils"), 1)
+        self.write("outputs.mne", f"SUB 1\n{coils.replace('R7', 'Y7')}SUB 2\nSUB 64\n")
+        self.assertEqual(self.run_rungc("check", "outputs.mne")[1].count("Y7.0 is driven by two coils"), 4)
+
     def test_xref_lists_the_readers_of_bits_that_never_change(self):
         self.write("constant.mne", "SUB 1\nRD R9091.1\nWRT Y9.0\nRD R9091.0\nOR R9091.1\nWRT Y9.1\nRD R9091.5\nWRT Y9.2\nSUB 2\nSUB 64\n")
         said = self.run_rungc("xref", "constant.mne", "--place", "R9091.0", "--place", "R9091.1", "--place", "R9091.5")[0]

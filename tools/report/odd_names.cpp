@@ -209,8 +209,11 @@ void Checker::check(const Definition& definition, bool used, uint32_t reach) {
     if (!used && !definition.usedByControl && (definition.isConstant() || isTarget)) reportUnused(definition);
     return;
   }
-  for (const Oddity& oddity : odditiesOf(*place, used, reach))
+  for (const Oddity& oddity : odditiesOf(*place, used, reach)) {
+    const bool isOneSided = oddity.code == diag::NeverWritten || oddity.code == diag::NeverRead;
+    if (isOneSided && definition.usedByControl) continue; // the other side is not in the program
     oddity.code == diag::UnusedName ? reportUnused(definition) : report(oddity, definition);
+  }
 }
 
 std::string_view textOf(Diag code) {

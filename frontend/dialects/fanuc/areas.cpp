@@ -114,6 +114,7 @@ constexpr std::array<AreaInfo, kAreaCount> areaTable(Pmc pmc) {
       area('N', kOthers[i], "to other PMCs", AreaUse::Output),
   };
   table[static_cast<size_t>(areas::kA)].shown = true;
+  table[static_cast<size_t>(areas::kE)].shared = true;
   const network::Address system = systemArea(pmc);
   table[static_cast<size_t>(system.area)].system = system.byte;
   table[static_cast<size_t>(areas::kA)].readOnly = kMessageState;

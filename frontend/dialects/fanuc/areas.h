@@ -21,6 +21,7 @@ inline constexpr network::Area kX = named('X');
 inline constexpr network::Area kF = named('F');
 inline constexpr network::Area kG = named('G');
 inline constexpr network::Area kR = named('R');
+inline constexpr network::Area kE = named('E');
 inline constexpr network::Area kA = named('A');
 inline constexpr network::Area kT = named('T');
 inline constexpr network::Area kC = named('C');

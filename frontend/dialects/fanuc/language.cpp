@@ -80,6 +80,7 @@ network::Language make(Pmc pmc) {
       .nameMarks = "#*+-/=.&$%!?@",
       .namesIgnoreCase = true, // F4
       .hexadecimal = false,
+      .dummyCoils = true,    // §8.3
       .cutsConstants = true, // §8.3
       .undeclared = diag::UndefinedSymbol,
       .needsProgramEnd = limitsOf(pmc).hasEnd,

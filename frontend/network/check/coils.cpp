@@ -273,7 +273,9 @@ std::string CoilCheck::whereIs(const Place& other, const Place& here) const {
 
 void CoilCheck::doubleCoil(const Place& here, const Place& other) {
   if (!reported_.insert(here.coil).second) return;
-  doubles_.insert(keyOf(here.coil->bit));
+  const Bit bit = keyOf(here.coil->bit);
+  const bool isFirst = doubles_.insert(bit).second;
+  if (!isFirst && language_.dummyCoils && !seenOutside(bit)) return;
   diagnostics_.report(diag::DoubleCoil, here.coil->range)
           .note(other.coil->range, "the other coil is " + whereIs(other, here))
       << textOf(language_, here.coil->bit);

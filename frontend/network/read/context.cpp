@@ -327,6 +327,8 @@ void Names::addTo(frontend::Analysis& analysis, const Language& language) const 
                                 .place = isPlace ? placeOf(language, name.address, 1) : frontend::NamedPlace{},
                                 .isPlaced = isPlace && name.kind == UserName::Kind::Symbol,
                                 .value = name.text,
+                                .usedByControl =
+                                    isPlace && language.at(name.address.area).isUsedOutside(name.address.byte),
                                 .isListed = name.isListed};
   });
 }

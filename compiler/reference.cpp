@@ -269,9 +269,17 @@ const nc::ConfigKey* configKey(const Dialect& dialect, std::string_view word) {
   return row == nullptr || row->key.starts_with('<') ? nullptr : row;
 }
 
+// Whether the word calls the row by its number: SUB 24, SUB24.
+bool isNumberOf(const Dialect& dialect, const InstructionInfo& row, std::string_view word) {
+  const std::string_view call = dialect.functionWord;
+  if (call.empty() || row.number < 0 || !text::startsWithIgnoringCase(word, call)) return false;
+  return text::trimmed(word.substr(call.size())) == std::to_string(row.number);
+}
+
 void explainInDialect(const Dialect& dialect, std::string_view word, Collected& out) {
   for (const InstructionInfo* row : dialect.instructions)
-    if (text::equalsIgnoringCase(row->mnemonic, word) || isAlias(*row, word, text::equalsIgnoringCase)) {
+    if (text::equalsIgnoringCase(row->mnemonic, word) || isAlias(*row, word, text::equalsIgnoringCase) ||
+        isNumberOf(dialect, *row, word)) {
       ReferencePage page;
       add(page, dialect, *row);
       out.add(fmt::format("[{}] {}\n", dialect.name, page.take()));

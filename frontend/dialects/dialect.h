@@ -80,6 +80,7 @@ struct Dialect {
   bool (*isBuilt)(const InstructionInfo& row);
   // For a dialect with ladders: the row of a box, see ladder::FindBox.
   const InstructionInfo* (*findBox)(std::string_view mnemonic) = nullptr;
+  std::string_view functionWord = {}; // before the number of a function in a list: "SUB"; empty if lists have none
   // Reads and checks a program, and reports all errors of all files. Never null. `diagnostics` must outlive the result.
   std::unique_ptr<CheckedProgram> (*check)(SourceManager& sources, std::span<const FileId> files,
                                            const CompileOptions& options, Diagnostics& diagnostics);

@@ -145,7 +145,22 @@ R9091.5
   read     rung 3, constant.mne:7
 """)
         self.write("rung.toml", 'dialect = "fanuc"\nfiles = ["constant.mne"]\n')
+        self.assertIn("[fanuc] R9091.1: always 1\n", self.run_rungc("explain", "R9091.1")[0])
         self.assertIn("  read     rung 1, constant.mne:2\n", self.run_rungc("explain", "R9091.1")[0])
+
+    def test_explain_functions_by_number_and_places_of_the_control(self):
+        for word in ("SUB 24", "SUB24", "sub 24"):
+            self.assertTrue(self.run_rungc("explain", word)[0].startswith("[fanuc] TMRB (function 24): on-delay timer"))
+        self.assertEqual(self.run_rungc("explain", "R9091.1")[0], "[fanuc] R9091.1: always 1\n  with memory C and larger this is Z91.1\n")
+        self.assertEqual(self.run_rungc("explain", "Z91.5")[0], "[fanuc] Z91.5: clock: 0.1 s 0, then 0.1 s 1\n  with memory A and B this is R9091.5\n")
+        self.assertEqual(self.run_rungc("explain", "K918")[0], "[fanuc] K918: shift of the messages to the texts of another language\n")
+        self.assertIn("[fanuc] A9000: state of the messages", self.run_rungc("explain", "A9000")[0])
+        self.assertIn("[fanuc] R9000.1: 1 if the result", self.run_rungc("explain", "R9000")[0])
+
+    def test_explain_in_a_project_shows_its_dialect(self):
+        self.assertIn("[gsk] ", self.run_rungc("explain", "TMRB")[0])
+        self.write("rung.toml", 'dialect = "fanuc"\nfiles = ["lamp.mne"]\n')
+        self.assertNotIn("[gsk] ", self.run_rungc("explain", "TMRB")[0])
 
     def test_explain_what_is_at_a_position(self):
         said = self.run_rungc("explain", f"lamp.mne:{LATCH}:4")[0]

@@ -57,12 +57,18 @@ int reportUnknown(const std::vector<compiler::ReferenceEntry>& entries, const st
   return kWrong;
 }
 
+// Of the project's dialect; of all dialects without a project, or where that one does not have the word.
+std::optional<std::string> referenceOf(const std::string& word, const ProjectNames* names) {
+  std::optional<std::string> text = compiler::explainTopic(word);
+  if (!text && names != nullptr) text = compiler::explain(word, names->dialect);
+  return text ? text : compiler::explain(word);
+}
+
 // Prints the reference entry of the word and the project's name; otherwise entries that contain the word.
 int explainWord(const std::string& word, const std::string& projectFile) {
-  std::optional<std::string> text = compiler::explainTopic(word);
-  if (!text) text = compiler::explain(word);
   const std::optional<ProjectNames> names = namesOfProject(word, projectFile);
   if (!names && !projectFile.empty()) return kWrong;
+  const std::optional<std::string> text = referenceOf(word, names ? &*names : nullptr);
   if (text) std::cout << plainText(*text);
   if (names && !names->text.empty()) std::cout << (text ? "\n" : "") << names->text;
   if (text || (names && !names->text.empty())) return kOk;

@@ -29,6 +29,7 @@ std::optional<std::string> explainPlace(const SourcePlace& place, int& status);
 
 // What a word is in a project.
 struct ProjectNames {
+  const frontend::Dialect* dialect = nullptr;
   std::string text; // description of the name or address; "": unknown, or there is no project
   std::vector<compiler::ReferenceEntry> entries;
   bool hasErrors = false; // the program has errors, so only its names are known

@@ -437,7 +437,7 @@ std::optional<ProjectNames> namesOfProject(const std::string& word, const std::s
   int status = takeProject(options);
   OpenProgram program;
   if (status != kOk || !program.open(options, status)) return std::nullopt;
-  ProjectNames names;
+  ProjectNames names{.dialect = &program.dialect()};
   for (const Definition& definition : program.analysis().definitions())
     if (definition.range.valid())
       names.entries.push_back({std::string(definition.name), fmt::format("name in {}", options.project->file),

@@ -127,6 +127,26 @@ constexpr std::array<std::array<AreaInfo, kAreaCount>, kPmcCount> allTables(std:
 }
 constexpr auto kTables = allTables(std::make_index_sequence<kPmcCount>());
 
+constexpr uint32_t kResult = 9000, kStart = kResult + kStartByte, kClock = kResult + kClockByte;
+
+constexpr ControlPlace kControlPlaces[] = {
+    {areas::kR, kResult, kResult, 0, "1 if the result of the last function is zero, or its values are equal"},
+    {areas::kR, kResult, kResult, 1, "1 if the result of the last function is negative, or its first value is less"},
+    {areas::kR, kResult, kResult, 5, "1 if the last function had an overflow"},
+    {areas::kR, kResult + 2, kResult + kResultBytes - 1, -1, "remainder of the last division"},
+    {areas::kR, kStart, kStart, 0, "1 from the start of the program to the end of the first cycle of level 2"},
+    {areas::kR, kClock, kClock, 0, "always 0"},
+    {areas::kR, kClock, kClock, 1, "always 1"},
+    {areas::kR, kClock, kClock, 2, "1 while the program runs"},
+    {areas::kR, kClock, kClock, 5, "clock: 0.1 s 0, then 0.1 s 1"},
+    {areas::kR, kClock, kClock, 6, "clock: 0.5 s 0, then 0.5 s 1"},
+    {areas::kA, kMessageState, kMessageState + 749, -1,
+     "state of the messages, read only: 1 while the message of the bit from A0 on is shown"},
+    {areas::kK, 900, 917, -1, "settings of the PMC"},
+    {areas::kK, 918, 919, -1, "shift of the messages to the texts of another language"},
+    {areas::kK, 920, 999, -1, "settings of the PMC"},
+};
+
 static_assert([] {
   for (const auto& table : kTables)
     for (size_t i = 0; i < kAreaCount; ++i)
@@ -135,6 +155,8 @@ static_assert([] {
 }());
 
 } // namespace
+
+std::span<const ControlPlace> controlPlaces() { return kControlPlaces; }
 
 std::span<const AreaInfo> areasOf(Pmc pmc) { return kTables[static_cast<size_t>(pmc)]; }
 

@@ -23,6 +23,7 @@ inline constexpr network::Area kG = named('G');
 inline constexpr network::Area kR = named('R');
 inline constexpr network::Area kE = named('E');
 inline constexpr network::Area kA = named('A');
+inline constexpr network::Area kK = named('K');
 inline constexpr network::Area kT = named('T');
 inline constexpr network::Area kC = named('C');
 inline constexpr network::Area kZ = named('Z');
@@ -41,6 +42,22 @@ constexpr network::Address systemArea(Pmc pmc) {
 inline constexpr uint32_t kResultBytes = 6;
 inline constexpr uint32_t kStartByte = 15;
 inline constexpr uint32_t kClockByte = 91;
+
+// Bytes, or a bit of one, in which the control keeps something of its own (inventory §3.2, §5.3). Those of the system
+// area have the addresses that they have at R9000.
+struct ControlPlace {
+  network::Area area{};
+  uint32_t first = 0, last = 0; // bytes
+  int bit = -1;                 // of byte `first`; -1: whole bytes
+  std::string_view doc;
+
+  constexpr bool has(const network::Address& address) const {
+    const bool isBit = bit < 0 || !address.isBit || address.bit == bit;
+    return address.area == area && address.byte >= first && address.byte <= last && isBit;
+  }
+};
+std::span<const ControlPlace> controlPlaces();
+inline constexpr uint32_t kSystemBytes = 100; // of the system area
 
 // The areas of a type, in the order of areas::kLetters.
 std::span<const AreaInfo> areasOf(Pmc pmc);

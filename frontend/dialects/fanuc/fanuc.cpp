@@ -162,6 +162,7 @@ const frontend::Dialect kFanuc = {
     .shownSpaces = kShownSpaces,
     .isBuilt = isBuilt,
     .findBox = findBox,
+    .functionWord = "SUB",
     .check = &check,
     .format = &format,
     .reference = &addReference,

@@ -35,6 +35,19 @@ void addressAreas(ReferencePage& page) {
   }
 }
 
+void ownPlaces(ReferencePage& page) {
+  page.section("Addresses of the control",
+               "The system area is from R9000 on; with memory C and larger it is from Z0 on, so that R9091.1 is Z91.1.",
+               "address | meaning");
+  for (const ControlPlace& place : controlPlaces()) {
+    const char letter = areas::kLetters[static_cast<size_t>(place.area)];
+    const std::string end = place.bit >= 0              ? fmt::format(".{}", place.bit)
+                            : place.last == place.first ? ""
+                                                        : fmt::format("-{}{}", letter, place.last);
+    page.row(fmt::format("{}{}{}", letter, place.first, end), place.doc);
+  }
+}
+
 void pins(ReferencePage& page) {
   page.section("Conditions and pins",
                "The conditions of a function in the order of the stack, which is that of the pins of its box in a "
@@ -52,6 +65,7 @@ void pins(ReferencePage& page) {
 
 void addReference(ReferencePage& page) {
   addressAreas(page);
+  ownPlaces(page);
   pins(page);
   frontend::addWarnings(page, {diag::MissingEnd, diag::UnknownPmc, diag::UnknownSection, diag::BadListedSymbol,
                                diag::ConstantCut, diag::DuplicateTimer, diag::DuplicateCounter,

@@ -195,6 +195,7 @@ struct Language {
   const nc::SignalTable& (*signals)(); // names that need no declaration
   std::span<const Level> levels;       // in the order of a list, which is that of a slot; exactly one runs in Parts
   std::string_view subprogram;         // before the number in a `module` statement
+  std::string_view emptyNote{};        // on a program without any command
   std::string_view messageTexts;       // a note on where they are configured, if not by statements of a ladder
   uint32_t maxSteps = 0;               // most commands, parameters and table rows of a program
   uint32_t stackDepth = 0;             // number of values in the stack register

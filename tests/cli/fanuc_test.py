@@ -162,6 +162,14 @@ R9091.5
         self.write("rung.toml", 'dialect = "fanuc"\nfiles = ["lamp.mne"]\n')
         self.assertNotIn("[gsk] ", self.run_rungc("explain", "TMRB")[0])
 
+    def test_a_file_without_a_command_may_be_incomplete(self):
+        note = "note: the file may be incomplete: it has no section %@3, or no command in it"
+        for text in ("", "%@A\n%@2-C\nX9.0 START\n%\n"):
+            self.write("part.mne", text)
+            self.assertEqual(self.run_rungc("check", "part.mne", status=WRONG)[1].count(note), 1)
+        self.write("part.mne", "%@3\nRD X9.0\nWRT Y9.0\n")
+        self.assertNotIn(note, self.run_rungc("check", "part.mne", status=WRONG)[1])
+
     def test_explain_what_is_at_a_position(self):
         said = self.run_rungc("explain", f"lamp.mne:{LATCH}:4")[0]
         for part in ("start: read here", "start key", "declared at lamp.mne:5:6", "START (X9.0)"):

@@ -95,7 +95,9 @@ private:
       return wrong(fields[0].at, fmt::format("found '{}', expected the number of a frame", asShown(fields[0].text)));
     const int64_t before = std::exchange(last_, *number).value_or(*number - 1);
     if (*number != before + 1)
-      return wrong(fields[0].at, fmt::format("frame {} follows frame {}, expected {}", *number, before, before + 1));
+      return wrong(fields[0].at, fmt::format("the first column must be the number of the frame, one more in each line; "
+                                             "found {} after {}",
+                                             *number, before));
     if (fields.size() != trace_.signals.size() + 1)
       return wrong(positionOf(line, 0),
                    fmt::format("values of the frame: found {}, expected {}", fields.size() - 1, trace_.signals.size()));

@@ -70,6 +70,7 @@ network::Language make(Pmc pmc) {
       .signals = nc::fanucSignals,
       .levels = kLevels,
       .subprogram = "SUB",
+      .emptyNote = "the file may be incomplete: it has no section %@3, or no command in it",
       .messageTexts = "the text of a bit of area A is `message A0.0 \"1000 TEXT\"`",
       .maxSteps = 1'000'000,
       .stackDepth = 9, // F12

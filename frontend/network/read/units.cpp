@@ -202,6 +202,10 @@ void UnitAssembler::closeAll() {
   open_.clear();
 }
 
+bool UnitAssembler::isEmpty() const {
+  return stray_.empty() && std::ranges::all_of(program_.units, [](const Unit& unit) { return unit.networks.empty(); });
+}
+
 void UnitAssembler::endOfList(SourceRange lastLine) {
   Gap rest;
   leaveOptional(rest);
@@ -221,6 +225,7 @@ void UnitAssembler::endOfList(SourceRange lastLine) {
     DiagBuilder report = context_.diagnostics.report(language_.levels[level].endMissing,
                                                      later == levelCount() ? lastLine : ends_[later]);
     report << language_.fullNameOf(end);
+    if (level == 0 && isEmpty() && !language_.emptyNote.empty()) report.note(language_.emptyNote);
     if (level + 1 == levelCount()) continue;
     const Level& next = language_.levels[level + 1];
     report.note(next.optional

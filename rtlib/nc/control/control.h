@@ -184,8 +184,9 @@ public:
   virtual bool shows(const runtime::Instance& instance, std::span<const ShownMessage> these) const noexcept {
     return (void)instance, these.empty();
   }
-  // For programs whose messages are bits: returns in `message` the next one that has appeared or disappeared since the
-  // last call. False: there is none. To be called between two scans; allocates nothing.
+  // Returns in `message` the next one that has appeared or disappeared since the last call without a message of the
+  // program: in dialects whose messages are bits, and where another program has changed a text. False: there is none.
+  // To be called between two scans; allocates nothing.
   virtual bool nextChange(const runtime::Instance& instance, rung_message& message) noexcept {
     return (void)instance, (void)message, false;
   }

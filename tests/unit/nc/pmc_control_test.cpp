@@ -2,6 +2,7 @@
 // program.
 #include <gtest/gtest.h>
 
+#include "rtlib/change/replacement.h"
 #include "rtlib/load/program_info.h"
 #include "rtlib/nc/control/pmc/pmc_control.h"
 #include "rtlib/nc/fanuc/model.h"
@@ -18,22 +19,27 @@ class FanucControl : public testing::Test {
 protected:
   static constexpr uint32_t kF = 0, kG = 1, kA = 2, kDisplay = 3, kK = 4; // spaces
 
+  // Keys are 8·byte + bit + 1; the last text is that of A0.1 in the language with a shift of 400 bits.
+  static void build(test::TestProgram& program) {
+    program.dialect = "fanuc";
+    program.memorySize = 4096;
+    program.addPacked("F", 1, 768, 0);
+    program.addPacked("G", 1, 768, 768);
+    program.addPacked("A", 1, 64, 1536);
+    program.addPacked("@DISPB", 1, 1, 1600);
+    program.addPacked("K", 1, 1000, 1604);
+    program.texts = {{2, 0, "1000 DOOR OPEN"},
+                     {9, 0, "2005 OIL LEVEL LOW"},
+                     {16, 0, "2100 COOLANT ON"},
+                     {402, 0, "1000 TUER OFFEN"}};
+    program.services = {fanuc::service(pmc::ServiceKind::ReadWindow).text.data()};
+    program.addTask("LEVEL2", program.addChunk(&nothing));
+    program.scan = {{RUNG_STEP_ADVANCE, RUNG_NONE, 8000}, {RUNG_STEP_RUN, 0, 1}};
+  }
+
   FanucControl() {
-    program_.dialect = "fanuc";
-    program_.memorySize = 4096;
-    program_.addPacked("F", 1, 768, 0);
-    program_.addPacked("G", 1, 768, 768);
-    program_.addPacked("A", 1, 64, 1536);
-    program_.addPacked("@DISPB", 1, 1, 1600);
-    program_.addPacked("K", 1, 1000, 1604);
-    // Keys are 8·byte + bit + 1; the last one is that of A0.1 in the language with a shift of 400 bits.
-    program_.texts = {{2, 0, "1000 DOOR OPEN"},
-                      {9, 0, "2005 OIL LEVEL LOW"},
-                      {16, 0, "2100 COOLANT ON"},
-                      {402, 0, "1000 TUER OFFEN"}};
-    program_.services = {fanuc::service(pmc::ServiceKind::ReadWindow).text.data()};
-    program_.addTask("LEVEL2", program_.addChunk(&nothing));
-    program_.scan = {{RUNG_STEP_ADVANCE, RUNG_NONE, 8000}, {RUNG_STEP_RUN, 0, 1}};
+    build(program_);
+    build(other_);
     instance_.emplace(program_.link(), &control_);
     control_.powerOn(*instance_, PowerOn::Cold);
   }
@@ -53,13 +59,20 @@ protected:
     for (rung_message message; control_.nextChange(*instance_, message);) {
       char line[100];
       const size_t size = control_.describe(instance_->program(), message, line);
-      lines.push_back((message.op == RUNG_MESSAGE_SHOW ? "+" : "-") + std::string(line, size));
+      const bool begins = message.op == RUNG_MESSAGE_SHOW;
+      lines.push_back(begins ? "+" + std::string(line, size) : "-" + std::to_string(message.number));
     }
     return lines;
   }
+  // Rungs that the test plays go on requesting these messages in the next program.
+  void replaceBy(const test::TestProgram& next) {
+    runtime::Replacement replacement(instance_->program(), {next.program});
+    ASSERT_EQ(instance_->replace(replacement), runtime::ReplaceResult::Replaced);
+    for (const auto& [byte, bit] : {std::pair{0u, 1u}, {1u, 0u}, {1u, 7u}}) set(kA, byte, bit, true);
+  }
 
   using Lines = std::vector<std::string>;
-  test::TestProgram program_;
+  test::TestProgram program_, other_;
   PmcControl control_{fanuc::model()};
   std::optional<runtime::Instance> instance_;
 };
@@ -76,7 +89,7 @@ TEST_F(FanucControl, MessagesNeedTheirBitAndTheDisplay) {
   EXPECT_TRUE(control_.showsAlarm(*instance_));
   set(kDisplay, 0, 0, false);
   EXPECT_EQ(shown(), Lines{});
-  EXPECT_EQ(changes(), Lines{"-EX1000 DOOR OPEN"});
+  EXPECT_EQ(changes(), Lines{"-1000"});
 }
 
 TEST_F(FanucControl, NumbersDecideTheKind) {
@@ -88,7 +101,7 @@ TEST_F(FanucControl, NumbersDecideTheKind) {
   EXPECT_EQ(changes(), (Lines{"+2005 OIL LEVEL LOW", "+2100 COOLANT ON"}));
   EXPECT_FALSE(control_.showsAlarm(*instance_));
   set(kA, 1, 0, false);
-  EXPECT_EQ(changes(), Lines{"-2005 OIL LEVEL LOW"});
+  EXPECT_EQ(changes(), Lines{"-2005"});
 }
 
 TEST_F(FanucControl, RequestsWithoutATextAreNotShown) {
@@ -108,6 +121,47 @@ TEST_F(FanucControl, Languages) {
   set(kA, 1, 0, true);
   EXPECT_EQ(shown(), (Lines{"alarm EX1000 \"TUER OFFEN\"", "message 2005 \"OIL LEVEL LOW\""}));
   EXPECT_EQ(changes(), (Lines{"+EX1000 TUER OFFEN", "+2005 OIL LEVEL LOW"}));
+  instance_->memory().writeByte(kK, 918, 0);
+  instance_->memory().writeByte(kK, 919, 0);
+  EXPECT_EQ(changes(), (Lines{"-1000", "+EX1000 DOOR OPEN"}));
+  EXPECT_EQ(changes(), Lines{});
+}
+
+// All ends come first, because a number may go to another bit.
+TEST_F(FanucControl, AnotherProgramChangesNumbersAndTexts) {
+  other_.texts = {{2, 0, "2005 DOOR OPEN"}, {9, 0, "1000 OIL LEVEL LOW"}, {16, 0, "2100 COOLANT ON"}};
+  other_.link();
+  set(kDisplay, 0, 0, true);
+  for (const auto& [byte, bit] : {std::pair{0u, 1u}, {1u, 0u}, {1u, 7u}}) set(kA, byte, bit, true);
+  EXPECT_EQ(changes(), (Lines{"+EX1000 DOOR OPEN", "+2005 OIL LEVEL LOW", "+2100 COOLANT ON"}));
+  replaceBy(other_);
+  EXPECT_EQ(changes(), (Lines{"-1000", "-2005", "+2005 DOOR OPEN", "+EX1000 OIL LEVEL LOW"}));
+  EXPECT_EQ(changes(), Lines{});
+}
+
+TEST_F(FanucControl, AnotherProgramChangesATextAlone) {
+  other_.texts[1].text = "2005 OIL LEVEL VERY LOW";
+  other_.texts.erase(other_.texts.begin() + 2);
+  other_.link();
+  replaceBy(program_);
+  set(kDisplay, 0, 0, true);
+  EXPECT_EQ(changes(), (Lines{"+EX1000 DOOR OPEN", "+2005 OIL LEVEL LOW", "+2100 COOLANT ON"}));
+  replaceBy(other_);
+  EXPECT_EQ(changes(), (Lines{"-2005", "-2100", "+2005 OIL LEVEL VERY LOW"}));
+}
+
+// As when the new program faults at once: what the host knows is right again.
+TEST_F(FanucControl, TheFormerProgramIsBackBeforeTheHostHears) {
+  other_.texts[1].text = "2006 OTHERWISE";
+  other_.link();
+  set(kDisplay, 0, 0, true);
+  set(kA, 0, 1, true);
+  EXPECT_EQ(changes(), Lines{"+EX1000 DOOR OPEN"});
+  replaceBy(other_);
+  replaceBy(program_);
+  EXPECT_EQ(changes(), (Lines{"+2005 OIL LEVEL LOW", "+2100 COOLANT ON"}));
+  control_.powerOn(*instance_, PowerOn::Cold);
+  EXPECT_EQ(changes(), Lines{}) << "after a power-on the host knows that none is shown";
 }
 
 // Code in one slot, strobe in the next, until FIN has risen and fallen.

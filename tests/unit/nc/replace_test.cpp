@@ -5,6 +5,7 @@
 #include "rtlib/nc/control/nct/nct_control.h"
 #include "rtlib/nc/control/pmc/pmc_control.h"
 #include "rtlib/nc/gsk/model.h"
+#include "rtlib/nc/nct/messages.h"
 #include "tests/unit/rtlib/test_program.h"
 
 namespace rung::nc {
@@ -95,6 +96,38 @@ TEST(ControlReplace, NctFinishesItsFunction) {
   instance.scan();
   functions.step();
   EXPECT_FALSE(functions.busy(0));
+}
+
+// The list of the screen stays; the host is told that the message has ended and begun.
+TEST(ControlReplace, NctChangesATextOfAMessage) {
+  const auto build = [](test::TestProgram& program, const char* text) {
+    program.texts = {{5, 0, text}, {6, 0, "THE SAME"}};
+    program.addPacked(nct::kMessageSpace, 4, 2 * nct::kMessageWords * 4, 2 * 16000);
+    buildNct(program, 0);
+  };
+  test::TestProgram one, two;
+  build(one, "OIL");
+  build(two, "OIL LEVEL");
+  NctControl control;
+  runtime::Instance instance(one.program, &control);
+  control.powerOn(instance, PowerOn::Cold);
+  const uint32_t cells = runtime::findSpace(one.program, nct::kMessageSpace);
+  for (const uint32_t number : {5u, 6u}) {
+    control.accept({.op = RUNG_MESSAGE_SHOW, .number = number});
+    instance.memory().write(cells, 4 * ((number - 5) * nct::kMessageWords + nct::kWantedWord), 4, 100 * number);
+  }
+  rung_message message{};
+  EXPECT_FALSE(control.nextChange(instance, message));
+  Replacement replacement(one.program, {two.program});
+  ASSERT_EQ(instance.replace(replacement), ReplaceResult::Replaced);
+  for (const uint32_t op : {RUNG_MESSAGE_CLEAR, RUNG_MESSAGE_SHOW}) {
+    ASSERT_TRUE(control.nextChange(instance, message));
+    EXPECT_EQ(message.op, op);
+    EXPECT_EQ(message.number, 5u);
+  }
+  EXPECT_FALSE(control.nextChange(instance, message));
+  ASSERT_EQ(control.messages(instance).size(), 2u);
+  EXPECT_EQ(control.messages(instance)[0].text, "OIL LEVEL");
 }
 
 } // namespace

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 #include "rtlib/load/program_info.h"
 #include "rtlib/nc/control/control.h"
@@ -49,7 +50,7 @@ void widen(std::vector<Entry>& used, std::vector<Entry>& other) noexcept {
 
 } // namespace
 
-Messages::Places::Places(const rung_program& program) : cells(program, kMessageSpace) {
+Messages::Places::Places(const rung_program& of) : program(&of), cells(of, kMessageSpace) {
   // More than one message for a box exists only between a loss in the queue and its detection.
   const size_t room = cells.bytes / (size_t{kMessageWords} * 4) + core::kMessageCapacity;
   list.reserve(room);
@@ -71,6 +72,23 @@ void Messages::use(runtime::Instance& instance, Places& places) noexcept {
   widen(cleared_, places.cleared);
   widen(sorted_, places.sorted);
   endGone(instance);
+  const rung_program* former = std::exchange(program_, places.program);
+  if (former != nullptr && former != program_) renewTexts(*former);
+}
+
+void Messages::renewTexts(const rung_program& former) noexcept {
+  for (Entry& entry : list_)
+    if (runtime::messageText(former, entry.message.number) != runtime::messageText(*program_, entry.message.number))
+      entry.renewal = Renewal::End;
+}
+
+bool Messages::nextChange(rung_message& message) noexcept {
+  const auto entry = std::ranges::find_if(list_, [](const Entry& one) { return one.renewal != Renewal::None; });
+  if (entry == list_.end()) return false;
+  message = entry->message;
+  if (entry->renewal == Renewal::End) message.op = RUNG_MESSAGE_CLEAR;
+  entry->renewal = entry->renewal == Renewal::End ? Renewal::Begin : Renewal::None;
+  return true;
 }
 
 uint32_t Messages::cell(uint32_t box, uint32_t word) const {

@@ -4,7 +4,8 @@
 //
 // A code is displayed once: if it is sent again, it moves to the top with its new value. A message that the operator
 // clears disappears at the end of the PLC cycle in which N_CLRMSG is 1, so that the program sees both at once (l.2870);
-// it reappears only with the next rising edge. Scan thread; only `shown` and the constructor of Places allocate.
+// it reappears only with the next rising edge. If a program with another text takes over, the message ends for the host
+// and begins anew; the list stays. Scan thread; only `shown` and the constructor of Places allocate.
 #pragma once
 #include <span>
 #include <string>
@@ -18,20 +19,23 @@
 namespace rung::nc::nct {
 
 class Messages {
+  enum class Renewal : uint8_t { None, End, Begin }; // what is to be reported to the host next
   struct Entry {
     uint32_t code;
     bool clearing; // it disappears at the end of this cycle
     rung_message message;
+    Renewal renewal = Renewal::None;
   };
 
 public:
   // The cells of one program's messages, and storage for its list.
   class Places {
   public:
-    explicit Places(const rung_program& program);
+    explicit Places(const rung_program& of);
 
   private:
     friend class Messages;
+    const rung_program* program;
     PackedSpace cells; // the space @SHOWN
     std::vector<Entry> list;
     std::vector<uint32_t> cleared, sorted;
@@ -42,6 +46,8 @@ public:
   // Sets the places of the running program; of the two lists, the one with more room stays here. Messages that no box
   // of the program wants any more are cleared by messages of the program; after a power-on there are none.
   void use(runtime::Instance& instance, Places& places) noexcept;
+  // As Control::nextChange, of messages whose texts another program has changed.
+  bool nextChange(rung_message& message) noexcept;
   // A message that the program has sent.
   void accept(const rung_message& message);
   // The operator's buttons: CANCEL clears the message on top, others clear the selected message or all of them. False:
@@ -66,6 +72,7 @@ private:
   bool isShown(uint32_t code) const;
   bool isWanted(uint32_t code) const noexcept;
   void endGone(runtime::Instance& instance) noexcept;
+  void renewTexts(const rung_program& former) noexcept;
   void remove(uint32_t code);
   void registered(uint32_t code);
   void dropUnwanted();
@@ -76,6 +83,7 @@ private:
   BitSignal any_{"N_MSGA"};
   BitSignal plc_{"N_MSG0"};
   WordSignal active_{"N_ACTMSG"};
+  const rung_program* program_ = nullptr;
   std::span<uint8_t> cells_;      // of the Places in use
   std::vector<Entry> list_;       // the last element is on top; with room for a message of each box
   std::vector<uint32_t> cleared_; // by the operator since the last cycle

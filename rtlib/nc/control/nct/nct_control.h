@@ -31,6 +31,9 @@ public:
   bool shows(const runtime::Instance&, std::span<const ShownMessage> these) const noexcept override {
     return messages_.shows(these);
   }
+  bool nextChange(const runtime::Instance&, rung_message& message) noexcept override {
+    return messages_.nextChange(message);
+  }
   // The text includes the values of the message.
   size_t describe(const rung_program& program, const rung_message& message,
                   std::span<char> out) const noexcept override;

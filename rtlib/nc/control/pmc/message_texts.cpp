@@ -29,11 +29,11 @@ void put(std::string_view text, std::span<char> out, size_t& size) {
 
 } // namespace
 
-PmcMessages::Places::Places(const rung_program& program, pmc::MessageRule rule)
-    : area(runtime::findSpace(program, "A")) {
-  if (rule == pmc::MessageRule::ByTextList) readTexts(program);
+PmcMessages::Places::Places(const rung_program& of, pmc::MessageRule rule)
+    : program(&of), area(runtime::findSpace(of, "A")) {
+  if (rule == pmc::MessageRule::ByTextList) readTexts(of);
   if (area == RUNG_NONE) return;
-  const rung_space& space = program.spaces[area];
+  const rung_space& space = of.spaces[area];
   if (rule == pmc::MessageRule::ByTextList) findStates(space);
   bytes = std::min(space.byte_count, kMostBytes);
   for (const rung_range& range : std::span(space.ranges, space.range_count)) {
@@ -42,8 +42,7 @@ PmcMessages::Places::Places(const rung_program& program, pmc::MessageRule rule)
                       .count = std::min(range.byte_count, bytes - range.first_byte),
                       .offset = range.offset,
                       .expanded = range.repr == RUNG_REPR_BYTE_PER_BIT});
-    for (uint32_t i = 0; i < pieces.back().size(); ++i)
-      written.push_back(runtime::writtenBits(program, range.offset + i));
+    for (uint32_t i = 0; i < pieces.back().size(); ++i) written.push_back(runtime::writtenBits(of, range.offset + i));
   }
 }
 
@@ -53,11 +52,11 @@ void PmcMessages::Places::findStates(const rung_space& space) {
       if (byte >= kFirstState && byte - kFirstState < kMostBytes) states.push_back(byte - kFirstState);
 }
 
-void PmcMessages::Places::readTexts(const rung_program& program) {
-  display = runtime::findSpace(program, "@DISPB");
-  shift = runtime::findSpace(program, "K");
-  if (shift != RUNG_NONE && program.spaces[shift].byte_count < kShiftAt + 2) shift = RUNG_NONE;
-  for (const rung_message_text& text : std::span(program.texts, program.text_count)) {
+void PmcMessages::Places::readTexts(const rung_program& of) {
+  display = runtime::findSpace(of, "@DISPB");
+  shift = runtime::findSpace(of, "K");
+  if (shift != RUNG_NONE && of.spaces[shift].byte_count < kShiftAt + 2) shift = RUNG_NONE;
+  for (const rung_message_text& text : std::span(of.texts, of.text_count)) {
     if (text.number == 0 || text.number > 8 * kMostBytes) continue;
     if (text.number > numbers.size()) numbers.resize(text.number);
     numbers[text.number - 1] = numberOf(text.text);
@@ -65,11 +64,21 @@ void PmcMessages::Places::readTexts(const rung_program& program) {
 }
 
 void PmcMessages::powerOn() {
-  known_.fill(0);
+  reported_.fill(0);
   hasSeen_ = false;
 }
 
+void PmcMessages::noteTexts(const rung_program& former, const rung_program& now) noexcept {
+  for (uint32_t byte = 0; byte < kMostBytes; ++byte)
+    for (uint8_t left = reported_[byte]; left != 0; left &= static_cast<uint8_t>(left - 1)) {
+      uint32_t& key = reportedAs_[8 * byte + static_cast<uint32_t>(std::countr_zero(left))].key;
+      if (runtime::messageText(former, key) != runtime::messageText(now, key)) key = 0;
+    }
+}
+
 void PmcMessages::use(uint8_t* block, const Places& places) noexcept {
+  if (places_ != nullptr && program_ != places.program) noteTexts(*program_, *places.program);
+  program_ = places.program;
   places_ = &places;
   hasSeen_ = false;
   const uint8_t* written = places.written.data();

@@ -3,8 +3,8 @@
 
 namespace rung::nc {
 
-bool PmcMessages::isAsSeen(const uint8_t* block, bool display) const noexcept {
-  if (!hasSeen_ || display != seenDisplay_) return false;
+bool PmcMessages::isAsSeen(const uint8_t* block, const Showing& showing) const noexcept {
+  if (!hasSeen_ || showing != seenShowing_) return false;
   const uint8_t* seen = seen_.data();
   for (const Piece& piece : places_->pieces) {
     if (std::memcmp(block + piece.offset, seen, piece.size()) != 0) return false;
@@ -13,34 +13,71 @@ bool PmcMessages::isAsSeen(const uint8_t* block, bool display) const noexcept {
   return true;
 }
 
-void PmcMessages::see(const uint8_t* block, bool display) noexcept {
+void PmcMessages::see(const uint8_t* block, const Showing& showing) noexcept {
   uint8_t* seen = seen_.data();
   for (const Piece& piece : places_->pieces) {
     std::memcpy(seen, block + piece.offset, piece.size());
     seen += piece.size();
   }
   hasSeen_ = true;
-  seenDisplay_ = display;
+  seenShowing_ = showing;
 }
 
-bool PmcMessages::nextChange(const runtime::Instance& instance, rung_message& message) noexcept {
-  if (places_ == nullptr) return false;
-  const bool display = displays(instance);
-  if (isAsSeen(instance.block().data(), display)) return false;
-  const uint32_t moved = shift(instance);
+uint8_t PmcMessages::bitsOf(const runtime::Instance& instance, const Showing& showing, uint32_t byte) const noexcept {
+  return showing.display && byte < places_->bytes ? instance.memory().readByte(places_->area, byte) : uint8_t{0};
+}
+
+// A message that continues has another number or text if another program has taken over, or in another language.
+uint8_t PmcMessages::ended(uint32_t byte, uint8_t bits, const Showing& showing) const noexcept {
+  uint8_t ended = reported_[byte] & static_cast<uint8_t>(~bits);
+  if (hasSeen_ && showing.shift == seenShowing_.shift) return ended;
+  for (uint8_t left = reported_[byte] & bits; left != 0; left &= static_cast<uint8_t>(left - 1)) {
+    const uint32_t at = 8 * byte + static_cast<uint32_t>(std::countr_zero(left));
+    if (known(at + 1, showing.shift) != reportedAs_[at]) ended = static_cast<uint8_t>(ended | 1u << at % 8);
+  }
+  return ended;
+}
+
+bool PmcMessages::nextEnd(const runtime::Instance& instance, const Showing& showing, rung_message& message) noexcept {
+  for (uint32_t byte = 0; byte < kMostBytes; ++byte) {
+    if (reported_[byte] == 0) continue;
+    const uint8_t bits = ended(byte, bitsOf(instance, showing, byte), showing);
+    if (bits == 0) continue;
+    const auto bit = static_cast<uint32_t>(std::countr_zero(bits));
+    reported_[byte] = static_cast<uint8_t>(reported_[byte] & ~(1u << bit));
+    const Known& was = reportedAs_[8 * byte + bit];
+    message = {.op = RUNG_MESSAGE_CLEAR, .number = was.number};
+    if (isListed()) message.value = was.key;
+    return true;
+  }
+  return false;
+}
+
+bool PmcMessages::nextBeginning(const runtime::Instance& instance, const Showing& showing,
+                                rung_message& message) noexcept {
   for (uint32_t byte = 0; byte < places_->bytes; ++byte) {
-    const uint8_t bits = display ? instance.memory().readByte(places_->area, byte) : uint8_t{0};
-    for (uint8_t changed = bits ^ known_[byte]; changed != 0; changed = bits ^ known_[byte]) {
-      const auto bit = static_cast<uint32_t>(std::countr_zero(changed));
-      known_[byte] = static_cast<uint8_t>(known_[byte] ^ 1u << bit);
-      const Known found = known(8 * byte + bit + 1, moved);
-      if (found.number == 0) continue;
-      message = {.op = (bits >> bit & 1) != 0 ? RUNG_MESSAGE_SHOW : RUNG_MESSAGE_CLEAR, .number = found.number};
-      if (isListed()) message.value = found.key;
+    uint8_t left = bitsOf(instance, showing, byte) & static_cast<uint8_t>(~reported_[byte]);
+    for (; left != 0; left &= static_cast<uint8_t>(left - 1)) {
+      const auto bit = static_cast<uint32_t>(std::countr_zero(left));
+      const Known now = known(8 * byte + bit + 1, showing.shift);
+      if (now.number == 0) continue;
+      reported_[byte] = static_cast<uint8_t>(reported_[byte] | 1u << bit);
+      reportedAs_[8 * byte + bit] = now;
+      message = {.op = RUNG_MESSAGE_SHOW, .number = now.number};
+      if (isListed()) message.value = now.key;
       return true;
     }
   }
-  see(instance.block().data(), display);
+  return false;
+}
+
+// Ends come first: the number of a message that ends may be that of one that begins.
+bool PmcMessages::nextChange(const runtime::Instance& instance, rung_message& message) noexcept {
+  if (places_ == nullptr) return false;
+  const Showing now = showing(instance);
+  if (isAsSeen(instance.block().data(), now)) return false;
+  if (nextEnd(instance, now, message) || nextBeginning(instance, now, message)) return true;
+  see(instance.block().data(), now);
   return false;
 }
 

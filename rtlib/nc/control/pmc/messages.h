@@ -32,8 +32,9 @@ public:
 
   // Where a program has its messages. Any thread, but not in real time.
   struct Places {
-    Places(const rung_program& program, pmc::MessageRule rule);
+    Places(const rung_program& of, pmc::MessageRule rule);
 
+    const rung_program* program;
     uint32_t area; // RUNG_NONE: the program has no messages
     uint32_t bytes = 0;
     std::vector<Piece> pieces;
@@ -44,14 +45,15 @@ public:
     std::vector<uint32_t> states;  // the bytes of the A area whose state the program reads
 
   private:
-    void readTexts(const rung_program& program);
+    void readTexts(const rung_program& of);
     void findStates(const rung_space& space);
   };
 
   explicit PmcMessages(pmc::MessageRule rule) : rule_(rule) {}
 
   void powerOn();
-  // Another program has taken over; messages that none of its rungs can end are ended. The places outlive the use.
+  // Another program has taken over; messages that none of its rungs can end are ended, and those with another number or
+  // text end and begin anew for the host. The places and their program outlive the use.
   void use(uint8_t* block, const Places& places) noexcept;
 
   // By a text list only: the bits of A from byte kFirstState on say which messages are shown.
@@ -84,6 +86,7 @@ private:
   // the text in the program's table.
   struct Known {
     uint32_t number = 0, key = 0;
+    bool operator==(const Known&) const = default;
   };
   Known known(uint32_t bit, uint32_t shift) const noexcept;
 
@@ -94,17 +97,35 @@ private:
   template <class See>
   bool forShown(const runtime::Instance& instance, See see) const;
 
-  // Whether the bytes of the A area and the display are those of the last call of `see`, so that no message has
-  // changed.
-  bool isAsSeen(const uint8_t* block, bool display) const noexcept;
-  void see(const uint8_t* block, bool display) noexcept;
+  // What decides, beside the A area, which messages are shown.
+  struct Showing {
+    bool display = false;
+    uint32_t shift = 0;
+    bool operator==(const Showing&) const = default;
+  };
+  Showing showing(const runtime::Instance& instance) const noexcept {
+    return {.display = displays(instance), .shift = shift(instance)};
+  }
+  // Whether the bytes of the A area and `showing` are those of the last call of `see`, so that no message has changed.
+  bool isAsSeen(const uint8_t* block, const Showing& showing) const noexcept;
+  void see(const uint8_t* block, const Showing& showing) noexcept;
+  // Bits of one byte of the A area whose messages the host is to end, and the next message to begin; false: none.
+  uint8_t ended(uint32_t byte, uint8_t bits, const Showing& showing) const noexcept;
+  bool nextEnd(const runtime::Instance& instance, const Showing& showing, rung_message& message) noexcept;
+  bool nextBeginning(const runtime::Instance& instance, const Showing& showing, rung_message& message) noexcept;
+  void noteTexts(const rung_program& former, const rung_program& now) noexcept;
+  uint8_t bitsOf(const runtime::Instance& instance, const Showing& showing, uint32_t byte) const noexcept;
 
   pmc::MessageRule rule_;
-  const Places* places_ = nullptr;                     // of the program that runs now
-  std::array<uint8_t, kMostBytes> known_{};            // bits of messages as reported to the host
+  const Places* places_ = nullptr; // of the program that runs now
+  const rung_program* program_ = nullptr;
+  // Bits whose messages have been reported to the host as shown, and as what; a key of 0 is a text that the program no
+  // longer has.
+  std::array<uint8_t, kMostBytes> reported_{};
+  std::array<Known, size_t{8} * kMostBytes> reportedAs_{};
   std::array<uint8_t, size_t{8} * kMostBytes> seen_{}; // bytes of the pieces at the last `see`
   bool hasSeen_ = false;
-  bool seenDisplay_ = false; // the state of the display at the last `see`
+  Showing seenShowing_; // at the last `see`
 };
 
 // Nearly all bits are 0, so eight bytes of the block are tested at once.

@@ -22,9 +22,9 @@ std::vector<uint8_t> initialContents(const rung_program& program, std::span<cons
 
 } // namespace
 
-Replacement::Replacement(const rung_program& running, const Runnable& next, PlaceName nameOf)
+Replacement::Replacement(const rung_program& running, const Runnable& next, const Naming& naming)
     : loaded_(next, running.memory_size),
-      directions_{Direction(running, next.program, nameOf), Direction(next.program, running, nameOf)} {
+      directions_{Direction(running, next.program, naming), Direction(next.program, running, naming)} {
   if (next.memory == nullptr) planSharedBlock(running);
 }
 

@@ -29,7 +29,7 @@ enum class OwnContents : uint8_t {
 class Replacement {
 public:
   // `next` has the dialect of `running`; both outlive this object and the instance's use of them.
-  Replacement(const rung_program& running, const Runnable& next, PlaceName nameOf = plainPlaceName);
+  Replacement(const rung_program& running, const Runnable& next, const Naming& naming = {});
 
   const rung_program& next() const { return *loaded_.program; }
   const std::shared_ptr<const CopyLists>& copyLists() const { return loaded_.copyLists; } // of the next program
@@ -45,8 +45,8 @@ private:
   friend class Instance;
   // The change from one of the two programs to the other.
   struct Direction {
-    Direction(const rung_program& from, const rung_program& to, PlaceName nameOf)
-        : transfer(from, to, nameOf), inSharedBlock(transfer) {}
+    Direction(const rung_program& from, const rung_program& to, const Naming& naming)
+        : transfer(from, to, naming), inSharedBlock(transfer) {}
     StateTransfer transfer;
     StateTransfer inSharedBlock;   // without the bytes that keep their place
     std::vector<uint8_t> contents; // initial contents of the program, if blocks are swapped

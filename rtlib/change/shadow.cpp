@@ -45,8 +45,9 @@ bool hasWholeRuns(const rung_program& program, std::span<const rung_step> steps)
 
 // ---- before -------------------------------------------------------------------------------------------------------
 
-Shadow::Shadow(const rung_program& live, const Runnable& next, DescribePlace describe, uint32_t scans, uint32_t room)
-    : live_(live), next_(next), transfer_(live, next.program), describe_(describe),
+Shadow::Shadow(const rung_program& live, const Runnable& next, DescribePlace describe, uint32_t scans, uint32_t room,
+               const Naming& naming)
+    : live_(live), next_(next), transfer_(live, next.program, naming), describe_(describe),
       lengthUs_(static_cast<int64_t>(scanPeriodUs(live)) * scans), problem_(compareSchedules()), records_(room),
       ring_(room), runner_(next.program, next_.block.get(), ctx_, next_.parts.data(), next.engine) {
   ctx_.host = &api_;
@@ -68,7 +69,7 @@ Shadow::Shadow(const rung_program& live, const Runnable& next, DescribePlace des
       if (step.op == RUNG_STEP_PART) inParts_[step.task] = true;
   for (uint32_t s = 0; s < next.program.service_count; ++s)
     services_.push_back(findService(live, next.program.services[s]));
-  findOutputs();
+  findOutputs({live, naming});
 }
 
 std::string Shadow::compareSchedules() const {
@@ -88,7 +89,7 @@ std::string Shadow::compareSchedules() const {
 
 // Finds the names of both programs in the spaces of outputs, and bits of these spaces without a name. If the dialect
 // marks no space as output, all names count.
-void Shadow::findOutputs() {
+void Shadow::findOutputs(const SymbolsByName& liveSymbols) {
   const rung_program& next = *next_.program;
   const std::span<const rung_space> spaces(next.spaces, next.space_count);
   const auto isOutput = [](const rung_space& space) { return (space.flags & RUNG_SPACE_OUTPUT) != 0; };
@@ -97,7 +98,7 @@ void Shadow::findOutputs() {
   for (const rung_symbol& symbol : std::span(next.symbols, next.symbol_count)) {
     if ((symbol.flags & (RUNG_SYMBOL_CONST | RUNG_SYMBOL_HIDDEN)) != 0 || symbol.type == RUNG_TYPE_TEXT) continue;
     if (marked && !isOutput(spaces[symbol.space])) continue;
-    const rung_symbol* live = findSymbol(live_, symbol.name);
+    const rung_symbol* live = liveSymbols.find(symbol.name);
     if (live == nullptr || live->type != symbol.type || (live->flags & RUNG_SYMBOL_CONST) != 0) continue;
     const Ref ref = refOf(symbol);
     const Ref there = refOf(*live);

@@ -65,7 +65,8 @@ class Shadow final : public TaskWatch {
 public:
   // `live` and `next` are programs of one dialect, which outlive the shadow. The shadow ends after `scans` scans; it
   // has room for the records of `room` runs of tasks.
-  Shadow(const rung_program& live, const Runnable& next, DescribePlace describe, uint32_t scans, uint32_t room);
+  Shadow(const rung_program& live, const Runnable& next, DescribePlace describe, uint32_t scans, uint32_t room,
+         const Naming& naming = {});
 
   // Why the two cannot run side by side; "" if they can.
   const std::string& problem() const { return problem_; }
@@ -126,7 +127,7 @@ private:
   };
 
   std::string compareSchedules() const;
-  void findOutputs();
+  void findOutputs(const SymbolsByName& liveSymbols);
   void finish(ShadowState state) noexcept;
   void noteForced(const Instance& live) noexcept;
   void takeChanges(const Record& record);

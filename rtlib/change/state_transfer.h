@@ -18,6 +18,9 @@
 // State whose key begins with @ is shared by all instructions, and held by one at a time: the instruction whose own
 // slot, whose key ends with that key, is not 0. When that instruction is removed, the state is free again.
 //
+// Retained contents of an address that the new program does not retain are lost, unless a name takes them along: the
+// report has them by areas.
+//
 // A mechanism continues at the same instruction. While it waits at an instruction that the new program does not have,
 // the new program cannot take over.
 #pragma once
@@ -28,7 +31,7 @@
 #include <vector>
 
 #include "rtlib/change/rung_alignment.h"
-#include "rtlib/load/ref.h"
+#include "rtlib/load/naming.h"
 #include "rung/program.h"
 
 namespace rung::runtime {
@@ -48,7 +51,7 @@ inline constexpr std::string_view kChangeKinds[] = {"new", "removed", "moved", "
 struct StateChange {
   ChangeKind kind = ChangeKind::New;
   bool slot = false;      // made by the compiler; else a cell with a name
-  std::string name;       // in the new program; if it was removed, in the old one
+  std::string name;       // in the new program; if it was removed, in the old one: a name, or addresses, "D10 to D20"
   std::string formerName; // Renamed
 };
 
@@ -59,16 +62,11 @@ struct RungChange {
   uint32_t after = RUNG_NONE;        // index in the new program's table; RUNG_NONE: it was removed
 };
 
-// Names a place that has no name of its own, as users of the program's dialect would.
-using PlaceName = std::string (*)(const rung_program& program, const Ref& place);
-// "Y+3", "Y+3.5".
-std::string plainPlaceName(const rung_program& program, const Ref& place);
-
 class StateTransfer {
 public:
   // Both programs have passed checkProgram and outlive the plan. Throws std::length_error if the spaces of one have 512
   // MB or more.
-  StateTransfer(const rung_program& from, const rung_program& to, PlaceName nameOf = plainPlaceName);
+  StateTransfer(const rung_program& from, const rung_program& to, const Naming& naming = {});
 
   const rung_program& from() const { return *from_; }
 

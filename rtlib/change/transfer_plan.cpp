@@ -100,9 +100,10 @@ Marks outputBits(const rung_program& program) {
 
 class TransferPlanner {
 public:
-  TransferPlanner(StateTransfer& plan, const rung_program& from, const rung_program& to, PlaceName nameOf)
-      : plan_(plan), from_(from), to_(to), nameOf_(nameOf), old_(from), new_(to), overwritten_(to),
-        source_(new_.count(), kInitial), stays_(new_.count(), false), isNamed_(new_.count(), false) {
+  TransferPlanner(StateTransfer& plan, const rung_program& from, const rung_program& to, const Naming& naming)
+      : plan_(plan), from_(from), to_(to), nameOf_(naming.nameOf), oldSymbols_(from, naming), newSymbols_(to, naming),
+        old_(from), new_(to), overwritten_(to), source_(new_.count(), kInitial), stays_(new_.count(), false),
+        isNamed_(new_.count(), false) {
     for (uint32_t s = 0; s < from.space_count; ++s) sameSpaces_.push_back(findSpace(to, from.spaces[s].name));
   }
 
@@ -119,6 +120,7 @@ public:
       if (match.former != nullptr) placeFormer(*match.symbol, *match.former);
     releaseOutputs();
     for (const auto& [cell, name] : gone_) plan_.changes_.push_back({ChangeKind::Removed, false, name, {}});
+    reportUnretained();
     std::ranges::sort(plan_.changes_, {}, &StateChange::name);
     addMoves();
     addSlots();
@@ -207,12 +209,12 @@ private:
 
   const rung_symbol* formerOf(const rung_symbol& symbol) const {
     const auto hidden = hiddenFormer_.find(&symbol);
-    return hidden != hiddenFormer_.end() ? hidden->second : findSymbol(from_, symbol.name);
+    return hidden != hiddenFormer_.end() ? hidden->second : oldSymbols_.find(symbol.name);
   }
   // Whether the new program has the name, too.
   bool isThere(const rung_symbol& former) const {
     if (const auto hidden = hiddenThere_.find(&former); hidden != hiddenThere_.end()) return hidden->second;
-    const rung_symbol* symbol = findSymbol(to_, former.name);
+    const rung_symbol* symbol = newSymbols_.find(former.name);
     return symbol != nullptr && hasPlace(*symbol);
   }
 
@@ -371,6 +373,47 @@ private:
     plan_.changes_.push_back({kind, false, symbol.name, std::move(formerName)});
   }
 
+  // ---- retained memory ---------------------------------------------------------------------------------------------
+
+  // By byte of all spaces, numbered as bits.
+  static std::vector<bool> retainedBytes(const rung_program& program, const BitNumbers& bits) {
+    Marks retained(program.memory_size);
+    for (uint32_t i = 0; i < program.retain_count; ++i)
+      mark(retained, program.retains[i].offset, program.retains[i].size);
+    std::vector<bool> bytes(bits.count() / 8);
+    for (uint32_t i = 0; i < bytes.size(); ++i) bytes[i] = retained[bits.locate(8 * i).offset] != 0;
+    return bytes;
+  }
+
+  // Bytes of the compiler's choice are reported by their names alone.
+  void reportUnretained() {
+    const std::vector<bool> before = retainedBytes(from_, old_), now = retainedBytes(to_, new_);
+    std::vector<bool> taken(old_.count());
+    for (uint32_t b = 0; b < new_.count(); ++b)
+      if (source_[b] != kInitial && now[b / 8]) taken[source_[b]] = true;
+    for (uint32_t s = 0; s < from_.space_count; ++s) {
+      const uint32_t space = sameSpaces_[s], bytes = from_.spaces[s].byte_count;
+      if (isAllocated(from_.spaces[s]) || (from_.spaces[s].flags & RUNG_SPACE_HIDDEN) != 0) continue;
+      const auto isLost = [&](uint32_t byte) {
+        const uint32_t first = old_.first(s) + 8 * byte;
+        const bool isThere =
+            space != RUNG_NONE && byte < to_.spaces[space].byte_count && now[new_.first(space) / 8 + byte];
+        const auto bits = taken.begin() + first;
+        return before[first / 8] && !isThere && std::find(bits, bits + 8, false) != bits + 8;
+      };
+      for (uint32_t byte = 0; byte < bytes; ++byte) {
+        const uint32_t first = byte;
+        while (byte < bytes && isLost(byte)) ++byte;
+        if (byte != first) reportArea(s, first, byte - 1);
+      }
+    }
+  }
+  void reportArea(uint32_t space, uint32_t first, uint32_t last) {
+    std::string name = nameOf_(from_, intRef(space, first, 8));
+    if (last != first) name += " to " + nameOf_(from_, intRef(space, last, 8));
+    report(ChangeKind::Removed, std::move(name));
+  }
+
   // ---- the moves ---------------------------------------------------------------------------------------------------
 
   // Makes as few moves as possible: adjacent bytes that stay adjacent are one move.
@@ -519,6 +562,8 @@ private:
   const rung_program& from_;
   const rung_program& to_;
   const PlaceName nameOf_;
+  const SymbolsByName oldSymbols_;
+  const SymbolsByName newSymbols_;
   BitNumbers old_;
   BitNumbers new_;
   Overwritten overwritten_;          // in the new program
@@ -535,13 +580,8 @@ private:
   std::map<std::string_view, std::string_view> newKeys_;          // new keys of instructions' state, by old key
 };
 
-StateTransfer::StateTransfer(const rung_program& from, const rung_program& to, PlaceName nameOf) : from_(&from) {
-  TransferPlanner(*this, from, to, nameOf).run();
-}
-
-std::string plainPlaceName(const rung_program& program, const Ref& place) {
-  const std::string byte = std::string(program.spaces[place.space].name) + "+" + std::to_string(place.byte);
-  return place.kind == RefKind::Bit ? byte + "." + std::to_string(place.bit) : byte;
+StateTransfer::StateTransfer(const rung_program& from, const rung_program& to, const Naming& naming) : from_(&from) {
+  TransferPlanner(*this, from, to, naming).run();
 }
 
 } // namespace rung::runtime

@@ -5,6 +5,12 @@
 
 namespace rung::runtime {
 
+bool isSamePlace(const Ref& a, const Ref& b) {
+  Ref other = b;
+  other.readonly = a.readonly;
+  return a == other;
+}
+
 Ref bitRef(uint32_t space, uint32_t byte, uint32_t bit) {
   Ref ref;
   ref.space = space;

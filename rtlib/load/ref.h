@@ -25,6 +25,9 @@ struct Ref {
   bool operator==(const Ref&) const = default;
 };
 
+// Whether both are one cell, or one array; a name may let the program only read it.
+bool isSamePlace(const Ref& a, const Ref& b);
+
 Ref bitRef(uint32_t space, uint32_t byte, uint32_t bit); // bit may be 8 or more, counted from the beginning of `byte`
 Ref intRef(uint32_t space, uint32_t byte, uint32_t width);
 Ref realRef(uint32_t space, uint32_t byte); // 64 bits

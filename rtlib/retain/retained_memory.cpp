@@ -24,19 +24,19 @@ std::chrono::milliseconds periodOf(RetainWhen when) {
 } // namespace
 
 RetainedMemory::RetainedMemory(const rung_program& program, const std::string& file, RetainWhen when, RetainTake take,
-                               const Outside& outside)
-    : RetainedMemory(program, file, when, take, outside.savePeriod.value_or(periodOf(when)), *outside.disk) {}
+                               const Outside& outside, const Naming& naming)
+    : RetainedMemory(program, file, when, take, outside.savePeriod.value_or(periodOf(when)), *outside.disk, naming) {}
 
 RetainedMemory::RetainedMemory(const rung_program& program, const std::string& file, RetainWhen when, RetainTake take,
-                               std::chrono::milliseconds period, Disk& disk)
-    : map_(program), when_(when), take_(take),
+                               std::chrono::milliseconds period, Disk& disk, const Naming& naming)
+    : map_(program), when_(when), take_(take), naming_(naming),
       store_(std::make_unique<RetainStore>(file, map_.layout(), map_.size(), disk)), period_(period) {}
 
 bool RetainedMemory::load(Instance& instance, std::string& report, std::string& error) {
   if (!store_->lock(error)) return false;
   RetainImage image = store_->load();
   if (!image.description.empty()) {
-    if (take_ != nullptr) take_(instance.program(), map_, image);
+    if (take_ != nullptr) take_(instance.program(), map_, image, naming_);
     if (!image.found) image.report += "; starting cold";
   }
   report = image.report;
@@ -207,6 +207,7 @@ public:
     for (const Cells::Cell& cell : cells.cells)
       symbols_.push_back(
           {cell.name.c_str(), "", cell.space, cell.byte, cell.bit, cell.type, cell.count, 0, 0, cell.reach, RUNG_NONE});
+    for (const RetainRun& run : cells.runs) retains_.push_back({ranges_[run.space].offset + run.first, run.count});
     block_.resize(offset);
     program_.size = sizeof program_;
     program_.dialect = cells.dialect.c_str();
@@ -215,6 +216,8 @@ public:
     program_.spaces = spaces_.data();
     program_.symbol_count = static_cast<uint32_t>(symbols_.size());
     program_.symbols = symbols_.data();
+    program_.retain_count = static_cast<uint32_t>(retains_.size());
+    program_.retains = retains_.data();
   }
   Tables(const Tables&) = delete;
   Tables& operator=(const Tables&) = delete;
@@ -259,6 +262,7 @@ private:
   std::vector<rung_range> ranges_;
   std::vector<rung_space> spaces_;
   std::vector<rung_symbol> symbols_;
+  std::vector<rung_span> retains_;
   std::vector<uint8_t> block_;
   rung_program program_{};
 };
@@ -267,7 +271,7 @@ private:
 
 // Cells found by address that the former program did not retain get their initial contents.
 RetainedTaken takeRetained(std::string_view now, std::string_view former, std::span<const uint8_t> image,
-                           std::span<const uint8_t> initial) {
+                           std::span<const uint8_t> initial, const Naming& naming) {
   const std::optional<Cells> cells = read(now);
   const std::optional<Cells> formerCells = read(former);
   if (!cells || !formerCells) return {};
@@ -278,7 +282,7 @@ RetainedTaken takeRetained(std::string_view now, std::string_view former, std::s
   to.fill(initial);
   from.fillSame(to);
   from.fill(image);
-  const StateTransfer transfer(from.program(), to.program());
+  const StateTransfer transfer(from.program(), to.program(), naming);
   transfer.run(from.block(), to.block());
   return {true, to.image(), {transfer.changes().begin(), transfer.changes().end()}, {}};
 }
@@ -309,9 +313,9 @@ std::vector<uint8_t> initialImage(const rung_program& program, const RetainMap& 
 
 } // namespace
 
-void takeRetainedOf(const rung_program& program, const RetainMap& map, RetainImage& image) {
+void takeRetainedOf(const rung_program& program, const RetainMap& map, RetainImage& image, const Naming& naming) {
   RetainedTaken taken =
-      takeRetained(map.layout().description, image.description, image.bytes, initialImage(program, map));
+      takeRetained(map.layout().description, image.description, image.bytes, initialImage(program, map), naming);
   image.found = taken.good;
   image.bytes = std::move(taken.image);
   if (!taken.otherDialect.empty())

@@ -23,12 +23,13 @@ struct RetainedTaken {
   std::string otherDialect; // the dialect of `former`, if that is the reason; else ""
 };
 RetainedTaken takeRetained(std::string_view now, std::string_view former, std::span<const uint8_t> image,
-                           std::span<const uint8_t> initial);
+                           std::span<const uint8_t> initial, const Naming& naming = {});
 
 // Converts the image of another program, as it was found, into one of this program, whose map is given; `found` stays
 // false if that fails. The report says what happens to the cells.
-using RetainTake = void (*)(const rung_program& program, const RetainMap& map, RetainImage& image);
-void takeRetainedOf(const rung_program& program, const RetainMap& map, RetainImage& image);
+using RetainTake = void (*)(const rung_program& program, const RetainMap& map, RetainImage& image,
+                            const Naming& naming);
+void takeRetainedOf(const rung_program& program, const RetainMap& map, RetainImage& image, const Naming& naming);
 
 // The retained memory of a running program on disk, as a host uses it: loaded at the start, saved while the program
 // runs and at its end. The files FILE.a and FILE.b (see retain.h) are ordered by the dialect's addresses (RetainMap);
@@ -44,12 +45,12 @@ enum class RetainWhen : uint8_t {
 class RetainedMemory {
 public:
   // `take`: null for a machine whose program never changes; then an image of another program is not taken, and the host
-  // is smaller.
+  // is smaller. `naming`: of the program's dialect.
   RetainedMemory(const rung_program& program, const std::string& file, RetainWhen when = RetainWhen::Always,
-                 RetainTake take = &takeRetainedOf, const Outside& outside = {});
+                 RetainTake take = &takeRetainedOf, const Outside& outside = {}, const Naming& naming = {});
   // The saver checks once per `period` whether there is something to write.
   RetainedMemory(const rung_program& program, const std::string& file, RetainWhen when, RetainTake take,
-                 std::chrono::milliseconds period, Disk& disk = systemDisk());
+                 std::chrono::milliseconds period, Disk& disk = systemDisk(), const Naming& naming = {});
 
   // Call before the program's warm start. False: nothing could be taken, and the program starts cold. `report` is a
   // message for the user; "": this is the first start. From then on no other process can use the files. The first image
@@ -91,6 +92,7 @@ private:
   RetainMap map_;
   RetainWhen when_;
   RetainTake take_;
+  Naming naming_;
   std::unique_ptr<RetainStore> store_; // until `load` passes it to the saver
   std::chrono::milliseconds period_;
   std::unique_ptr<RetainSaver> saver_;

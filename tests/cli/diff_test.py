@@ -43,6 +43,15 @@ class Diff(unittest.TestCase):
         self.assertEqual(self.diff(HEAD + ONE + TWO + THREE + END, again),
                          (SAME, "rungs: 0 changed, 0 added, 0 removed, 0 moved, 4 unchanged\n"))
 
+    def test_names_without_case(self):
+        """Of FANUC (F4); in NCT they are two names."""
+        old = "%@2\nD10 Count\nR5.0 Flag\n%\n%@3\nSUB 1\nRD FLAG\nWRT Y0.0\nSUB 2\nSUB 64\n%\n"
+        self.assertEqual(self.diff(old, old.replace("Count", "COUNT").replace("RD FLAG", "rd flag"), ending="mne"),
+                         (SAME, "rungs: 0 changed, 0 added, 0 removed, 0 moved, 1 unchanged\n"))
+        self.assertIn("changed name COUNT: D10 byte to D12 byte\n", self.diff(old, old.replace("D10 Count", "D12 COUNT"), ending="mne")[1])
+        text = self.diff(HEAD + ONE + END, HEAD.replace("LAMP", "Lamp") + ONE + END)[1]
+        self.assertIn("removed name LAMP", text)
+
     def test_a_twin_above_changes_nothing(self):
         twin, edge = '\nrung\n|--[@START]--(7002.01)\n', '\nrung\n|--[@START]--(MOTOR)\n'
         self.assertEqual(self.diff(HEAD + edge + END, HEAD + twin + edge + END)[1].splitlines()[-1],

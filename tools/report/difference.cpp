@@ -70,13 +70,23 @@ std::string meaningOf(const rung_program& program, const Symbol& symbol) {
   return nc::address(program, place) + (symbol.type == RUNG_TYPE_BIT ? "" : " " + type) + count;
 }
 
-using Texts = std::map<std::string, std::string>;
+// What a name means, by the name as the dialect compares it.
+struct Named {
+  std::string name; // as the program writes it
+  std::string meaning;
+  bool operator==(const Named& other) const { return meaning == other.meaning; }
+};
+using Texts = std::map<std::string, Named>;
+
+std::string compared(const Version& version, const std::string& name) {
+  return nc::naming(version.program.dialect).ignoresCase ? text::upper(name) : name;
+}
 
 Texts namesOf(const Version& version) {
   Texts names;
   for (const Symbol& symbol : version.module.symbols)
     if ((symbol.flags & RUNG_SYMBOL_HIDDEN) == 0 && !version.controlNames.contains(text::upper(symbol.name)))
-      names.emplace(symbol.name, meaningOf(version.program, symbol));
+      names.emplace(compared(version, symbol.name), Named{symbol.name, meaningOf(version.program, symbol)});
   return names;
 }
 
@@ -88,6 +98,7 @@ std::map<uint32_t, std::string> messagesOf(const Module& module) {
 
 std::string textOf(const std::string& text) { return text; }
 std::string textOf(const Setting& setting) { return setting.text; }
+std::string textOf(const Named& named) { return named.meaning; }
 
 // Calls `visit` with key, old and new value of all entries that differ; null if there is none.
 template <class Values, class Visit>
@@ -118,10 +129,9 @@ NameChange changeOf(std::string name, const Value* before, const Value* after) {
 
 std::vector<NameChange> compareNames(const Version& before, const Version& after, const FormerNames& former) {
   std::vector<NameChange> changes;
-  eachChange(namesOf(before), namesOf(after),
-             [&](const std::string& name, const std::string* old, const std::string* now) {
-               changes.push_back(changeOf(name, old, now));
-             });
+  eachChange(namesOf(before), namesOf(after), [&](const std::string&, const Named* old, const Named* now) {
+    changes.push_back(changeOf(now != nullptr ? now->name : old->name, old, now));
+  });
   std::ranges::move(compareBits(before, after, former), std::back_inserter(changes));
   std::ranges::stable_sort(changes, {}, &NameChange::name);
   return changes;

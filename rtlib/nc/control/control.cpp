@@ -76,7 +76,8 @@ Retention::Retention(Control& control, runtime::Instance& instance, const std::s
                      const runtime::Outside& outside)
     : control_(&control), instance_(&instance),
       memory_(instance.program(), file,
-              control.savesOnRequest() ? runtime::RetainWhen::OnRequest : runtime::RetainWhen::Always, take, outside) {
+              control.savesOnRequest() ? runtime::RetainWhen::OnRequest : runtime::RetainWhen::Always, take, outside,
+              naming(instance.program().dialect)) {
   control.setStored(true);
 }
 

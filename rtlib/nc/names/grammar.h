@@ -15,8 +15,12 @@ class NameGrammar {
 public:
   virtual ~NameGrammar() = default;
 
-  // Names are looked up in upper case, as the program's tables have them.
-  virtual bool ignoresCase() const { return false; }
+  enum class Case : uint8_t {
+    Counts,
+    Upper,   // names are looked up in upper case, as the program's tables have them
+    Ignored, // the program's tables have names as it writes them, to be shown; upper and lower case are the same
+  };
+  virtual Case ofNames() const { return Case::Counts; }
   // An address takes precedence over a signal of the control with the same name.
   virtual bool addressFirst() const { return false; }
   virtual bool hasAddresses() const { return true; }

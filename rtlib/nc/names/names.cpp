@@ -28,11 +28,12 @@ struct Row {
 };
 constexpr Row kDialects[] = {{"fanuc", fanucNames}, {"gsk", gskNames}, {"nct", nctNames}, {"technol", technolNames}};
 
-const NameGrammar& grammarOf(const rung_program& program) {
+const NameGrammar& grammarOf(std::string_view dialect) {
   static const NameGrammar plain;
-  const Row* row = std::ranges::find(kDialects, std::string_view(program.dialect), &Row::dialect);
+  const Row* row = std::ranges::find(kDialects, dialect, &Row::dialect);
   return row == std::end(kDialects) ? plain : row->grammar();
 }
+const NameGrammar& grammarOf(const rung_program& program) { return grammarOf(std::string_view(program.dialect)); }
 
 uint32_t bytesOf(const rung_symbol& symbol) {
   const Ref ref = runtime::refOf(symbol);
@@ -64,7 +65,12 @@ std::string addressBy(const NameGrammar& grammar, const rung_program& program, c
 // ---- grammar of unknown dialects ---------------------------------------------------------------------------------
 
 const rung_symbol* NameGrammar::symbol(const rung_program& program, std::string_view name) const {
-  return runtime::findSymbol(program, name);
+  if (const rung_symbol* exact = runtime::findSymbol(program, name); exact != nullptr || ofNames() != Case::Ignored)
+    return exact;
+  const std::span symbols(program.symbols, program.symbol_count);
+  const auto found =
+      std::ranges::find_if(symbols, [&](const rung_symbol& each) { return text::equalsIgnoringCase(each.name, name); });
+  return found == symbols.end() ? nullptr : &*found;
 }
 
 std::optional<Ref> NameGrammar::takeApart(NameSearch& search, std::string_view name) const {
@@ -183,7 +189,7 @@ bool NameSearch::allDigits(std::string_view text) {
 std::optional<Ref> resolve(const rung_program& program, std::string_view name, const NameFallback& fallback) {
   const NameGrammar& grammar = grammarOf(program);
   NameSearch search(program, grammar, fallback);
-  return grammar.ignoresCase() ? search.find(text::upper(name)) : search.find(name);
+  return grammar.ofNames() == NameGrammar::Case::Upper ? search.find(text::upper(name)) : search.find(name);
 }
 
 std::string_view headOf(std::string_view name) { return text::headOf(name); }
@@ -203,6 +209,10 @@ std::string address(const rung_program& program, const Ref& place) {
 
 std::string cellAddress(const rung_program& program, const Ref& place) {
   return place.space < program.space_count ? grammarOf(program).cellAddress(program, place) : "no space";
+}
+
+runtime::Naming naming(std::string_view dialect) {
+  return {.nameOf = &address, .ignoresCase = grammarOf(dialect).ofNames() == NameGrammar::Case::Ignored};
 }
 
 bool hasAddresses(const rung_program& program) { return grammarOf(program).hasAddresses(); }

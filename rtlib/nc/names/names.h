@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "rtlib/load/naming.h"
 #include "rtlib/load/ref.h"
 
 namespace rung::nc {
@@ -39,6 +40,9 @@ std::string address(const rung_program& program, const runtime::Ref& place);
 std::string cellAddress(const rung_program& program, const runtime::Ref& place);
 // False: users of the dialect know cells only by name.
 bool hasAddresses(const rung_program& program);
+
+// How programs of the dialect are compared, by the addresses and the rule of case here.
+runtime::Naming naming(std::string_view dialect);
 
 // A description of that bit or byte for users: the address, with the symbols at this place in brackets.
 std::string describe(const rung_program& program, const runtime::Ref& place);

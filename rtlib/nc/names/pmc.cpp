@@ -1,10 +1,8 @@
 // BASE.b, BASE:bytes, and area letter with address (see pmc.h).
 #include "rtlib/nc/names/pmc.h"
 
-#include <algorithm>
-#include <span>
+#include <string>
 
-#include "rtlib/load/program_info.h"
 #include "rtlib/text/letters.h"
 #include "rtlib/text/number.h"
 
@@ -27,7 +25,9 @@ public:
       return search.bitIn(name.substr(0, dot), name.substr(dot + 1));
     const std::optional<uint32_t> byte = text::numberIn<uint32_t>(name.substr(1));
     if (!byte) return std::nullopt;
-    return search.inSpace(runtime::intRef(search.space(area(name)), *byte, 8));
+    const std::string_view area = name.substr(0, 1);
+    const uint32_t space = search.space(ofNames() == Case::Ignored ? text::upper(area) : std::string(area));
+    return search.inSpace(runtime::intRef(space, *byte, 8));
   }
 
   std::string address(const rung_program& program, const Ref& place) const override {
@@ -41,24 +41,11 @@ public:
     const bool longer = place.kind != RefKind::Bit && place.width > 8;
     return address(program, place) + (longer ? ":" + std::to_string(place.width / 8) : "");
   }
-
-protected:
-  virtual std::string area(std::string_view name) const { return std::string(name.substr(0, 1)); }
 };
 
-// Symbols are shown as the program writes them and found in either case, and so are areas.
 class FanucNames final : public PmcNames {
 public:
-  const rung_symbol* symbol(const rung_program& program, std::string_view name) const override {
-    if (const rung_symbol* exact = runtime::findSymbol(program, name)) return exact;
-    const std::span symbols(program.symbols, program.symbol_count);
-    const auto found = std::ranges::find_if(
-        symbols, [&](const rung_symbol& each) { return text::equalsIgnoringCase(each.name, name); });
-    return found == symbols.end() ? nullptr : &*found;
-  }
-
-protected:
-  std::string area(std::string_view name) const override { return text::upper(PmcNames::area(name)); }
+  Case ofNames() const override { return Case::Ignored; }
 };
 
 } // namespace

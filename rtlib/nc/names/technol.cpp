@@ -49,7 +49,7 @@ std::string_view typeOf(const Ref& place) {
 
 class TechnolNames final : public NameGrammar {
 public:
-  bool ignoresCase() const override { return true; }
+  Case ofNames() const override { return Case::Upper; }
   bool hasAddresses() const override { return false; }
   uint32_t longestCell() const override { return 8; }
 

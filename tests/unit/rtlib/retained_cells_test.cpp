@@ -87,6 +87,17 @@ TEST(RetainedCells, NamesAndAddresses) {
               ElementsAre("moved  COUNT", "moved  FIRST", "removed  GONE", "moved  SECOND", "retyped  TYPED"));
 }
 
+TEST(RetainedCells, TheDialectSaysHowNamesAreCompared) {
+  const RetainLayout former = layoutOf([](TestProgram& t) { t.addSymbol("Count", 0, 4, RUNG_TYPE_I8); });
+  const RetainLayout now = layoutOf([](TestProgram& t) { t.addSymbol("COUNT", 0, 11, RUNG_TYPE_I8); });
+  const auto taken = [&](const Naming& naming) {
+    return takeRetained(now.description, former.description, kImage, kInitial, naming);
+  };
+  EXPECT_EQ(taken({.ignoresCase = true}).image[7], 4);
+  EXPECT_THAT(inWords(taken({.ignoresCase = true}).changes), ElementsAre("moved  COUNT"));
+  EXPECT_THAT(inWords(taken({}).changes), ElementsAre("removed  Count"));
+}
+
 TEST(RetainedCells, WhatWasNotKeptStartsAnew) {
   const RetainLayout former = layoutOf([](TestProgram& t) { t.retains = {{6, 2}, {16, 8}}; });
   const RetainLayout now = layoutOf([](TestProgram&) {});
@@ -94,8 +105,9 @@ TEST(RetainedCells, WhatWasNotKeptStartsAnew) {
   EXPECT_THAT(takeRetained(now.description, former.description, image, kInitial).image,
               ElementsAre(99, 99, 6, 7, 99, 99, 99, 99, 99, 99, 99, 99, 99, 99, 99, 99));
   const Bytes initial(10, 98);
-  EXPECT_THAT(takeRetained(former.description, now.description, kImage, initial).image,
-              ElementsAre(6, 7, 98, 98, 98, 98, 98, 98, 98, 98));
+  const RetainedTaken smaller = takeRetained(former.description, now.description, kImage, initial);
+  EXPECT_THAT(smaller.image, ElementsAre(6, 7, 98, 98, 98, 98, 98, 98, 98, 98));
+  EXPECT_THAT(inWords(smaller.changes), ElementsAre("removed  D+4 to D+5", "removed  D+8 to D+11"));
 }
 
 TEST(RetainedCells, AnotherDialectAndAnotherSizeAreNotTaken) {

@@ -55,8 +55,8 @@ protected:
     addSpaces(fresh.program);
   }
   // Runs the plan; kept, moved and so on, each "kind name".
-  std::set<std::string> run() {
-    const StateTransfer plan(old.program.program, fresh.program.program);
+  std::set<std::string> run(const runtime::Naming& naming = {}) {
+    const StateTransfer plan(old.program.program, fresh.program.program, naming);
     plan.run(old.block.data(), fresh.block.data());
     std::set<std::string> lines;
     for (const StateChange& change : plan.changes()) {
@@ -263,6 +263,36 @@ TEST_F(Transfer, TwoNamesOfOneCellDoNotMoveIt) {
   EXPECT_EQ(fresh.read("A"), 6u);
   EXPECT_EQ(fresh.read("B"), 6u);
   EXPECT_EQ(fresh.read("C"), 6u);
+}
+
+TEST_F(Transfer, WhereCaseDoesNotCountANameIsFoundInEitherCase) {
+  old.program.addSymbol("Count", kD, 4, RUNG_TYPE_I16);
+  old.program.addSymbol("Lamp", kR, 1, RUNG_TYPE_BIT, 2);
+  fresh.program.addSymbol("COUNT", kD, 8, RUNG_TYPE_I16);
+  fresh.program.addSymbol("lamp", kR, 1, RUNG_TYPE_BIT, 2);
+  old.start();
+  fresh.start();
+  old.write("Count", 7);
+  EXPECT_EQ(run({.ignoresCase = true}), Lines{"moved COUNT"});
+  EXPECT_EQ(fresh.read("COUNT"), 7u);
+  EXPECT_EQ(kept, 1u);
+  EXPECT_EQ(run(), (Lines{"removed Count", "renamed lamp from Lamp"})) << "where it counts";
+}
+
+TEST_F(Transfer, RetainedContentsWithoutAPlaceAreLost) {
+  old.program.addSpace("K", 1, {{0, 4, 512, RUNG_REPR_PACKED}, {4, 4, 520, RUNG_REPR_BYTE_PER_BIT}});
+  old.program.addPacked("C", 1, 2, 600);
+  old.program.retains = {{64 + 4, 12}, {512, 4}, {520, 32}, {600, 2}};
+  old.program.addSymbol("MOVES", 3, 3, RUNG_TYPE_I16);
+  old.program.addSymbol("GOES", 3, 6, RUNG_TYPE_I8);
+  fresh.program.addPacked("K", 1, 2, 512);
+  fresh.program.retains = {{64 + 6, 2}, {64 + 12, 4}, {512, 2}};
+  fresh.program.addSymbol("MOVES", kD, 14, RUNG_TYPE_I16);
+  old.start();
+  fresh.start();
+  EXPECT_EQ(run(), (Lines{"moved MOVES", "removed C+0 to C+1", "removed D+4 to D+5", "removed D+8 to D+11",
+                          "removed GOES", "removed K+2", "removed K+5 to K+7"}))
+      << "K+3 and K+4 go with a name to what is retained";
 }
 
 TEST_F(Transfer, WhatTheCompilerPlacedIsKnownByItsName) {

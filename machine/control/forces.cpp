@@ -2,7 +2,7 @@
 #include "machine/control/forces.h"
 
 #include <algorithm>
-#include <iterator>
+#include <optional>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -48,6 +48,16 @@ std::vector<Forces::HeldCell> Forces::heldCells() {
   std::vector<HeldCell> cells;
   for (const rung_force_info& force : plc_.activeForces()) cells.push_back({force.name, force.owner, force.value});
   return cells;
+}
+
+const Forces::HeldCell* Forces::forceOf(const std::vector<HeldCell>& held, const std::string& name) const {
+  const std::optional<rung_cell_info> wanted = cellInfo(plc_.instance(), name, RUNG_READ);
+  const auto isIt = [&](const HeldCell& cell) {
+    const auto other = wanted ? cellInfo(plc_.instance(), cell.name, RUNG_READ) : std::nullopt;
+    return cell.name == name || (other && host::isSamePlace(*wanted, *other));
+  };
+  const auto found = std::ranges::find_if(held, isIt);
+  return found == held.end() ? nullptr : &*found;
 }
 
 std::vector<std::string> Forces::activeNames() {
@@ -141,7 +151,9 @@ json Forces::force(const Peer& peer, const json& request) {
   const rung_value value = fromJson(type, request["value"], name);
   std::vector<HeldCell> before = heldCells();
   std::vector<HeldCell> cells = {{name, peer.name, value}};
-  std::ranges::copy_if(before, std::back_inserter(cells), [&](const HeldCell& cell) { return cell.name != name; });
+  const HeldCell* former = forceOf(before, name);
+  for (const HeldCell& cell : before)
+    if (&cell != former) cells.push_back(cell);
   if (cells.size() > PlcAccess::kMostForces) throw Refused("64 variables are already forced; release one first");
   return begin({.peer = peer,
                 .before = std::move(before),
@@ -159,13 +171,15 @@ json Forces::unforce(const Peer& peer, const json& request) {
   else
     refuseWhilePending();
   std::vector<HeldCell> before = heldCells();
+  const HeldCell* former = all ? nullptr : forceOf(before, name);
+  if (!all && former == nullptr) throw Refused(name + " is not forced");
   std::vector<HeldCell> left;
-  std::ranges::copy_if(before, std::back_inserter(left),
-                       [&](const HeldCell& cell) { return !all && cell.name != name; });
   json ended = json::array();
   for (const HeldCell& cell : before)
-    if (all || cell.name == name) ended.push_back(cell.name);
-  if (!all && ended.empty()) throw Refused(name + " is not forced");
+    if (all || &cell == former)
+      ended.push_back(cell.name);
+    else
+      left.push_back(cell);
   json answer = {{"ended", ended.size()}, {"names", ended}};
   if (ended.empty()) return answer;
   return begin({.peer = peer,

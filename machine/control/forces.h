@@ -49,6 +49,8 @@ private:
   using ForceSet = std::unique_ptr<rung_forces, Ends<rung_forces, rung_forces_free>>;
 
   std::vector<HeldCell> heldCells();
+  // The force of the same cell, whatever its name there is; null if there is none.
+  const HeldCell* forceOf(const std::vector<HeldCell>& held, const std::string& name) const;
   void refuseWhilePending() const;
   std::optional<ForceSet> prepared(const Change& change);
   void putInEffect(const Change& change, ForceSet forces);

@@ -238,10 +238,6 @@ std::optional<rung_cell_info> placeOf(rung_instance* plc, const rung_replacement
   return info;
 }
 
-bool isSamePlace(const rung_cell_info& a, const rung_cell_info& b) {
-  return a.space == b.space && a.byte == b.byte && a.bit == b.bit && a.type == b.type;
-}
-
 } // namespace
 
 PlcHost::Losses PlcHost::lossesBy(const rung_replacement* replacement, const rung_program& next) const {

@@ -29,6 +29,11 @@ enum class StepResult : uint8_t {
   Failed, // a fault has stopped the program in this step
 };
 
+// Whether two descriptions are of one cell, whatever its names are.
+inline bool isSamePlace(const rung_cell_info& a, const rung_cell_info& b) noexcept {
+  return a.space == b.space && a.byte == b.byte && a.bit == b.bit && a.type == b.type;
+}
+
 class PlcHost {
 public:
   using NewInstance = std::function<Instance(const Image& image, const rung_instance_options& options)>;

@@ -68,7 +68,7 @@ class Host(unittest.TestCase):
     def program_with(self, before, after):
         """The program, and what is otherwise in it."""
         self.assertIn(before, self.program_text)
-        other = self.home / "other.pmc"
+        other = self.home / ("other" + Path(self.source_name).suffix)
         other.write_text(self.program_text.replace(before, after))
         subprocess.run([BIN / "rungc", "build", "-q", other, "-o", self.home / "other.so"], check=True)
         return self.home / "other.so"
@@ -116,6 +116,20 @@ class Host(unittest.TestCase):
         """Waits for that many scans of the program."""
         end = self.scans() + count
         self.wait(lambda: self.scans() >= end)
+
+    def follow(self):
+        following = subprocess.Popen([BIN / "rungctl", "messages", "--follow"], stdout=subprocess.PIPE, text=True, env=self.environment)
+        self.addCleanup(following.stdout.close)
+        self.addCleanup(following.wait)
+        self.addCleanup(following.kill)
+        return following
+
+    def read_until(self, following, end):
+        lines = [following.stdout.readline()]
+        while lines[-1] and not lines[-1].endswith(end + "\n"):
+            lines.append(following.stdout.readline())
+        self.assertTrue(lines[-1], lines)
+        return [line.strip().split(" ", 2)[-1].split(":")[0] for line in lines]
 
     def trace(self, out, *words):
         """A trace of names into a file, which sees every scan from the next one on."""
@@ -745,20 +759,6 @@ class History(Host):
         self.ctl("reset")
         self.wait(lambda: self.ctl("messages", "--on") == "")
 
-    def follow(self):
-        following = subprocess.Popen([BIN / "rungctl", "messages", "--follow"], stdout=subprocess.PIPE, text=True, env=self.environment)
-        self.addCleanup(following.stdout.close)
-        self.addCleanup(following.wait)
-        self.addCleanup(following.kill)
-        return following
-
-    def read_until(self, following, end):
-        lines = [following.stdout.readline()]
-        while lines[-1] and not lines[-1].endswith(end + "\n"):
-            lines.append(following.stdout.readline())
-        self.assertTrue(lines[-1], lines)
-        return [line.strip().split(" ", 2)[-1].split(":")[0] for line in lines]
-
     def test_followers_hear_of_the_end_by_a_reset(self):
         self.show("X0.4", 1)
         self.wait(lambda: self.entries())
@@ -832,6 +832,112 @@ class History(Host):
         self.end()
         path.rmdir()
         self.begin_again()
+
+
+class Fanuc(Host):
+    """Programs of FANUC: texts of messages, types of the PMC, names in either case."""
+    source_name = "stuck.mne"
+    program_text = """%@0
+4 0i-F PMC(MEM-B,FLT)
+%
+%@2
+X0.0 Start
+Y0.0 Lamp
+%
+%@3
+SUB 1
+RD START
+WRT LAMP
+RD X0.3
+WRT A0.0
+SUB 69
+L1
+RD X0.1
+SUB 68
+L1
+RD R9091.1
+SUB 41
+1
+SUB 2
+SUB 64
+%
+%@4
+A0.0 1001 FORMER TEXT
+%
+"""
+    map = MAP.replace("X0.0", "X0.4").replace('"Y0.0"', '"Y0.1"')
+
+    def on(self):
+        return [line.split("  ")[-1].strip() for line in self.ctl("messages", "--on").splitlines()]
+
+    def show(self):
+        self.ctl("set", "X0.3", 1)
+        self.wait(lambda: self.on() == ["message EX1001 FORMER TEXT"])
+
+    def test_a_reload_with_another_message(self):
+        self.show()
+        following = self.follow()
+        following.stdout.readline()
+        self.ctl("reload", self.program_with("1001 FORMER TEXT", "2002 NEW TEXT"))
+        self.assertEqual(self.read_until(following, "2002 NEW TEXT"), ["message EX1001 FORMER TEXT has gone", "message 2002 NEW TEXT"])
+        self.assertEqual(self.on(), ["message 2002 NEW TEXT"])
+        self.ctl("rollback")
+        self.read_until(following, "EX1001 FORMER TEXT")
+        self.assertEqual(self.on(), ["message EX1001 FORMER TEXT"])
+        self.ctl("reload", self.program_with("FORMER TEXT", "CORRECTED TEXT"))
+        self.wait(lambda: self.on() == ["message EX1001 CORRECTED TEXT"])
+        self.ctl("set", "X0.3", 0)
+        self.wait(lambda: not self.on())
+
+    def test_a_reload_without_the_text(self):
+        self.show()
+        self.ctl("reload", self.program_with("A0.0 1001 FORMER TEXT\n", ""))
+        self.wait(lambda: not self.on())
+
+    def test_a_new_program_that_faults_at_once_changes_no_message(self):
+        self.show()
+        faulty = self.program_with("RD X0.1", "RD R9091.1")
+        faulty = self.home / "other.mne"
+        faulty.write_text(faulty.read_text().replace("1001 FORMER TEXT", "2002 NEW TEXT"))
+        subprocess.run([BIN / "rungc", "build", "-q", faulty, "-o", self.home / "other.so"], check=True)
+        self.assertIn("the former one is back", self.ctl("reload", self.home / "other.so", status=WRONG))
+        self.assertIn("message EX1001 FORMER TEXT", self.on())
+        self.ctl("reset")
+        self.show()
+        self.assertNotIn("NEW TEXT", self.ctl("messages"))
+
+    def test_a_reload_while_a_fault_has_stopped_the_program(self):
+        self.show()
+        self.ctl("set", "X0.1", 1)
+        self.wait(lambda: "stopped by a fault" in self.ctl("status"))
+        self.ctl("reload", self.program_with("1001 FORMER TEXT", "2002 NEW TEXT"))
+        self.ctl("reload", self.program_with("1001 FORMER TEXT", "2003 LAST TEXT"))
+        self.ctl("set", "X0.1", 0)
+        self.ctl("reset")
+        self.wait(lambda: self.on() == ["message 2003 LAST TEXT"])
+
+    def test_a_smaller_type(self):
+        self.ctl("set", "D8:2", 7)
+        smaller = self.program_with("0i-F PMC(MEM-B,FLT)", "PMC-SA1")
+        said = self.ctl("reload", smaller, status=WRONG)
+        self.assertIn("the new program loses state: ", said)
+        for area in ("C80 to C5199", "D1860 to D9999", "K20 to K999", "T80 to T9499"):
+            self.assertIn(f"removed {area}\n", said)
+            self.assertIn(area, said.splitlines()[-1])
+        self.assertIn("; nothing has changed; use --yes to do it anyway", said)
+        self.assertIn("program stuck,", self.ctl("status"))
+        self.ctl("reload", smaller, "--yes")
+        self.assertEqual(self.get("D8:2"), 7)
+        self.ctl("reload", self.program)
+
+    def test_names_of_forces(self):
+        self.ctl("force", "START", 1)
+        self.wait(lambda: self.get("Y0.0"))
+        self.assertEqual(self.ctl("force", "x0.0", 0), "x0.0 is forced to false\n")
+        self.wait(lambda: not self.get("Y0.0"))
+        self.assertEqual(self.ctl("forced").count("\n"), 1)
+        self.assertEqual(self.ctl("unforce", "start"), "x0.0 is no longer forced\n")
+        self.assertIn("START is not forced", self.ctl("unforce", "START", status=WRONG))
 
 
 class Rights(Host):

@@ -1,7 +1,9 @@
 // Forced cells of a session (see forces.h).
 #include "tools/scenario/forces.h"
 
+#include <algorithm>
 #include <fmt/format.h>
+#include <optional>
 #include <utility>
 
 #include "tools/scenario/names.h"
@@ -49,11 +51,23 @@ std::string Forces::put(const EngineRuns& runs, Values values) {
   return {};
 }
 
+Forces::Values::const_iterator Forces::find(const EngineRuns& runs, const Values& values, const std::string& name) {
+  const auto placeOf = [&](const std::string& of) {
+    return runs[0]->nc().readPlace(runs[0]->instance().program(), of);
+  };
+  const std::optional<runtime::Ref> wanted = placeOf(name);
+  return std::ranges::find_if(values, [&](const auto& force) {
+    const auto place = wanted ? placeOf(force.first) : std::nullopt;
+    return force.first == name || (place && runtime::isSamePlace(*place, *wanted));
+  });
+}
+
 std::string Forces::set(const EngineRuns& runs, const std::string& name, const Value& value) {
   const runtime::Instance& instance = runs[0]->instance();
   if (instance.faulted()) return "a program that a fault has stopped has no forces";
   if (instance.stopped()) return "a stopped program has no forces";
   Values values = this->values(runs);
+  if (const auto former = find(runs, values, name); former != values.end()) values.erase(former);
   values[name] = value;
   return put(runs, std::move(values));
 }
@@ -61,7 +75,10 @@ std::string Forces::set(const EngineRuns& runs, const std::string& name, const V
 std::string Forces::clear(const EngineRuns& runs, const std::vector<std::string>& names) {
   Values values = this->values(runs);
   for (const std::string& name : names)
-    if (values.erase(name) == 0) return name + " is not forced";
+    if (const auto force = find(runs, values, name); force != values.end())
+      values.erase(force);
+    else
+      return name + " is not forced";
   if (!names.empty() && !values.empty()) return put(runs, std::move(values));
   for (const std::unique_ptr<EngineRun>& run : runs) force(*run, nullptr);
   values_.clear();

@@ -17,12 +17,14 @@ public:
 
   // Adds a force or changes its value. "" or what is wrong; then nothing has changed.
   std::string set(const EngineRuns& runs, const std::string& name, const Value& value);
-  // Releases these names; without names, all.
+  // Releases the cells of these names, by whatever names they were forced; without names, all.
   std::string clear(const EngineRuns& runs, const std::vector<std::string>& names);
   // The active forces.
   const Values& values(const EngineRuns& runs);
 
 private:
+  // The force of the cell that has this name; `end()` if there is none.
+  static Values::const_iterator find(const EngineRuns& runs, const Values& values, const std::string& name);
   std::string put(const EngineRuns& runs, Values values);
 
   Values values_;

@@ -23,7 +23,7 @@ struct rung_replacement {
   rung_replacement(rung_instance& of, const std::shared_ptr<const Image>& image, uint8_t* memory)
       : instance(of), former(of.generations.running()),
         replacement(former->program(), {image->program, image->engine, memory, of.serviceNames.of(image->program)},
-                    nc::naming(image->program.dialect)),
+                    nc::naming(image->program)),
         places(of.control->locate(image->program)), environmentPlaces(of.environment->locate(image->program)),
         channel(std::make_unique<runtime::RetainChannel>(runtime::RetainMap(image->program))) {
     bound = runtime::measureBound({image->program, image->engine});
@@ -64,7 +64,7 @@ struct rung_shadow {
   rung_shadow(rung_instance& of, std::shared_ptr<const Image> next, uint32_t scans, uint32_t room)
       : instance(of), live(of.generations.running()), image(std::move(next)),
         shadow(live->program(), {image->program, image->engine}, &nc::describe, scans, room,
-               nc::naming(image->program.dialect)) {}
+               nc::naming(image->program)) {}
 
   uint32_t mark = kShadowMark;
   rung_instance& instance;

@@ -14,8 +14,12 @@ bool precedes(std::string_view a, std::string_view b) { return text::compareIgno
 } // namespace
 
 std::string plainPlaceName(const rung_program& program, const Ref& place) {
-  const std::string byte = std::string(program.spaces[place.space].name) + "+" + std::to_string(place.byte);
-  return place.kind == RefKind::Bit ? byte + "." + std::to_string(place.bit) : byte;
+  std::string text = program.spaces[place.space].name;
+  text += '+';
+  text += std::to_string(place.byte);
+  if (place.kind != RefKind::Bit) return text;
+  text += '.';
+  return text += std::to_string(place.bit);
 }
 
 SymbolsByName::SymbolsByName(const rung_program& program, const Naming& naming) : program_(&program) {

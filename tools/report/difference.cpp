@@ -79,7 +79,7 @@ struct Named {
 using Texts = std::map<std::string, Named>;
 
 std::string compared(const Version& version, const std::string& name) {
-  return nc::naming(version.program.dialect).ignoresCase ? text::upper(name) : name;
+  return nc::naming(version.program).ignoresCase ? text::upper(name) : name;
 }
 
 Texts namesOf(const Version& version) {

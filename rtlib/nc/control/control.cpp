@@ -77,7 +77,7 @@ Retention::Retention(Control& control, runtime::Instance& instance, const std::s
     : control_(&control), instance_(&instance),
       memory_(instance.program(), file,
               control.savesOnRequest() ? runtime::RetainWhen::OnRequest : runtime::RetainWhen::Always, take, outside,
-              naming(instance.program().dialect)) {
+              naming(instance.program())) {
   control.setStored(true);
 }
 

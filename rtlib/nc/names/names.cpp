@@ -28,12 +28,11 @@ struct Row {
 };
 constexpr Row kDialects[] = {{"fanuc", fanucNames}, {"gsk", gskNames}, {"nct", nctNames}, {"technol", technolNames}};
 
-const NameGrammar& grammarOf(std::string_view dialect) {
+const NameGrammar& grammarOf(const rung_program& program) {
   static const NameGrammar plain;
-  const Row* row = std::ranges::find(kDialects, dialect, &Row::dialect);
+  const Row* row = std::ranges::find(kDialects, std::string_view(program.dialect), &Row::dialect);
   return row == std::end(kDialects) ? plain : row->grammar();
 }
-const NameGrammar& grammarOf(const rung_program& program) { return grammarOf(std::string_view(program.dialect)); }
 
 uint32_t bytesOf(const rung_symbol& symbol) {
   const Ref ref = runtime::refOf(symbol);
@@ -67,10 +66,9 @@ std::string addressBy(const NameGrammar& grammar, const rung_program& program, c
 const rung_symbol* NameGrammar::symbol(const rung_program& program, std::string_view name) const {
   if (const rung_symbol* exact = runtime::findSymbol(program, name); exact != nullptr || ofNames() != Case::Ignored)
     return exact;
-  const std::span symbols(program.symbols, program.symbol_count);
-  const auto found =
-      std::ranges::find_if(symbols, [&](const rung_symbol& each) { return text::equalsIgnoringCase(each.name, name); });
-  return found == symbols.end() ? nullptr : &*found;
+  for (const rung_symbol& symbol : std::span(program.symbols, program.symbol_count))
+    if (text::equalsIgnoringCase(symbol.name, name)) return &symbol;
+  return nullptr;
 }
 
 std::optional<Ref> NameGrammar::takeApart(NameSearch& search, std::string_view name) const {
@@ -211,8 +209,8 @@ std::string cellAddress(const rung_program& program, const Ref& place) {
   return place.space < program.space_count ? grammarOf(program).cellAddress(program, place) : "no space";
 }
 
-runtime::Naming naming(std::string_view dialect) {
-  return {.nameOf = &address, .ignoresCase = grammarOf(dialect).ofNames() == NameGrammar::Case::Ignored};
+runtime::Naming naming(const rung_program& program) {
+  return {.nameOf = &address, .ignoresCase = grammarOf(program).ofNames() == NameGrammar::Case::Ignored};
 }
 
 bool hasAddresses(const rung_program& program) { return grammarOf(program).hasAddresses(); }

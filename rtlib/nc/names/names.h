@@ -41,8 +41,8 @@ std::string cellAddress(const rung_program& program, const runtime::Ref& place);
 // False: users of the dialect know cells only by name.
 bool hasAddresses(const rung_program& program);
 
-// How programs of the dialect are compared, by the addresses and the rule of case here.
-runtime::Naming naming(std::string_view dialect);
+// How programs of this one's dialect are compared, by the addresses and the rule of case here.
+runtime::Naming naming(const rung_program& program);
 
 // A description of that bit or byte for users: the address, with the symbols at this place in brackets.
 std::string describe(const rung_program& program, const runtime::Ref& place);

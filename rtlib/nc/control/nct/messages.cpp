@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <utility>
 
 #include "rtlib/load/program_info.h"
 #include "rtlib/nc/control/control.h"
@@ -72,22 +71,21 @@ void Messages::use(runtime::Instance& instance, Places& places) noexcept {
   widen(cleared_, places.cleared);
   widen(sorted_, places.sorted);
   endGone(instance);
-  const rung_program* former = std::exchange(program_, places.program);
-  if (former != nullptr && former != program_) renewTexts(*former);
-}
-
-void Messages::renewTexts(const rung_program& former) noexcept {
-  for (Entry& entry : list_)
-    if (runtime::messageText(former, entry.message.number) != runtime::messageText(*program_, entry.message.number))
+  for (Entry& entry : list_) {
+    const uint32_t number = entry.message.number;
+    if (runtime::messageText(*program_, number) != runtime::messageText(*places.program, number))
       entry.renewal = Renewal::End;
+  }
+  program_ = places.program;
 }
 
 bool Messages::nextChange(rung_message& message) noexcept {
   const auto entry = std::ranges::find_if(list_, [](const Entry& one) { return one.renewal != Renewal::None; });
   if (entry == list_.end()) return false;
   message = entry->message;
-  if (entry->renewal == Renewal::End) message.op = RUNG_MESSAGE_CLEAR;
-  entry->renewal = entry->renewal == Renewal::End ? Renewal::Begin : Renewal::None;
+  const bool ends = entry->renewal == Renewal::End;
+  if (ends) message.op = RUNG_MESSAGE_CLEAR;
+  entry->renewal = ends ? Renewal::Begin : Renewal::None;
   return true;
 }
 
@@ -128,7 +126,8 @@ void Messages::accept(const rung_message& message) {
   }
   remove(code);
   if (list_.size() == list_.capacity()) dropUnwanted();
-  if (list_.size() < list_.capacity()) list_.push_back({.code = code, .clearing = false, .message = message});
+  if (list_.size() < list_.capacity())
+    list_.push_back({.code = code, .clearing = false, .renewal = Renewal::None, .message = message});
 }
 
 bool Messages::isWanted(uint32_t code) const noexcept {

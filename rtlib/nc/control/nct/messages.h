@@ -23,8 +23,8 @@ class Messages {
   struct Entry {
     uint32_t code;
     bool clearing; // it disappears at the end of this cycle
+    Renewal renewal;
     rung_message message;
-    Renewal renewal = Renewal::None;
   };
 
 public:
@@ -72,7 +72,6 @@ private:
   bool isShown(uint32_t code) const;
   bool isWanted(uint32_t code) const noexcept;
   void endGone(runtime::Instance& instance) noexcept;
-  void renewTexts(const rung_program& former) noexcept;
   void remove(uint32_t code);
   void registered(uint32_t code);
   void dropUnwanted();

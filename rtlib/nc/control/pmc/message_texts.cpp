@@ -68,17 +68,13 @@ void PmcMessages::powerOn() {
   hasSeen_ = false;
 }
 
-void PmcMessages::noteTexts(const rung_program& former, const rung_program& now) noexcept {
-  for (uint32_t byte = 0; byte < kMostBytes; ++byte)
-    for (uint8_t left = reported_[byte]; left != 0; left &= static_cast<uint8_t>(left - 1)) {
-      uint32_t& key = reportedAs_[8 * byte + static_cast<uint32_t>(std::countr_zero(left))].key;
-      if (runtime::messageText(former, key) != runtime::messageText(now, key)) key = 0;
-    }
-}
-
 void PmcMessages::use(uint8_t* block, const Places& places) noexcept {
-  if (places_ != nullptr && program_ != places.program) noteTexts(*program_, *places.program);
-  program_ = places.program;
+  for (uint32_t at = 0; at < reportedAs_.size(); ++at) {
+    uint32_t& key = reportedAs_[at].key;
+    if ((reported_[at / 8] >> at % 8 & 1) != 0 &&
+        runtime::messageText(*places_->program, key) != runtime::messageText(*places.program, key))
+      key = 0;
+  }
   places_ = &places;
   hasSeen_ = false;
   const uint8_t* written = places.written.data();
@@ -86,9 +82,12 @@ void PmcMessages::use(uint8_t* block, const Places& places) noexcept {
     for (uint32_t i = 0; i < piece.size(); ++i) block[piece.offset + i] &= *written++;
 }
 
-uint32_t PmcMessages::shift(const runtime::Instance& instance) const noexcept {
-  if (places_->shift == RUNG_NONE) return 0;
-  return static_cast<uint32_t>(instance.memory().read(places_->shift, kShiftAt, 2));
+PmcMessages::Showing PmcMessages::showing(const runtime::Instance& instance) const noexcept {
+  Showing now{.display = !isListed()};
+  if (places_->display != RUNG_NONE) now.display = instance.memory().readByte(places_->display, 0) != 0;
+  if (places_->shift != RUNG_NONE)
+    now.shift = static_cast<uint32_t>(instance.memory().read(places_->shift, kShiftAt, 2));
+  return now;
 }
 
 PmcMessages::Known PmcMessages::known(uint32_t bit, uint32_t shift) const noexcept {

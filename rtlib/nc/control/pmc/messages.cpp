@@ -27,44 +27,23 @@ uint8_t PmcMessages::bitsOf(const runtime::Instance& instance, const Showing& sh
   return showing.display && byte < places_->bytes ? instance.memory().readByte(places_->area, byte) : uint8_t{0};
 }
 
-// A message that continues has another number or text if another program has taken over, or in another language.
-uint8_t PmcMessages::ended(uint32_t byte, uint8_t bits, const Showing& showing) const noexcept {
-  uint8_t ended = reported_[byte] & static_cast<uint8_t>(~bits);
-  if (hasSeen_ && showing.shift == seenShowing_.shift) return ended;
-  for (uint8_t left = reported_[byte] & bits; left != 0; left &= static_cast<uint8_t>(left - 1)) {
-    const uint32_t at = 8 * byte + static_cast<uint32_t>(std::countr_zero(left));
-    if (known(at + 1, showing.shift) != reportedAs_[at]) ended = static_cast<uint8_t>(ended | 1u << at % 8);
-  }
-  return ended;
-}
-
-bool PmcMessages::nextEnd(const runtime::Instance& instance, const Showing& showing, rung_message& message) noexcept {
+// A message that continues ends, too, if another program or another language gives it another number or text.
+bool PmcMessages::nextChange(const runtime::Instance& instance, const Showing& showing, bool begins,
+                             rung_message& message) noexcept {
   for (uint32_t byte = 0; byte < kMostBytes; ++byte) {
-    if (reported_[byte] == 0) continue;
-    const uint8_t bits = ended(byte, bitsOf(instance, showing, byte), showing);
-    if (bits == 0) continue;
-    const auto bit = static_cast<uint32_t>(std::countr_zero(bits));
-    reported_[byte] = static_cast<uint8_t>(reported_[byte] & ~(1u << bit));
-    const Known& was = reportedAs_[8 * byte + bit];
-    message = {.op = RUNG_MESSAGE_CLEAR, .number = was.number};
-    if (isListed()) message.value = was.key;
-    return true;
-  }
-  return false;
-}
-
-bool PmcMessages::nextBeginning(const runtime::Instance& instance, const Showing& showing,
-                                rung_message& message) noexcept {
-  for (uint32_t byte = 0; byte < places_->bytes; ++byte) {
-    uint8_t left = bitsOf(instance, showing, byte) & static_cast<uint8_t>(~reported_[byte]);
+    if (!begins && reported_[byte] == 0) continue;
+    const uint8_t bits = bitsOf(instance, showing, byte);
+    uint8_t left = begins ? bits & static_cast<uint8_t>(~reported_[byte]) : reported_[byte];
     for (; left != 0; left &= static_cast<uint8_t>(left - 1)) {
       const auto bit = static_cast<uint32_t>(std::countr_zero(left));
+      Known& reported = reportedAs_[8 * byte + bit];
       const Known now = known(8 * byte + bit + 1, showing.shift);
-      if (now.number == 0) continue;
-      reported_[byte] = static_cast<uint8_t>(reported_[byte] | 1u << bit);
-      reportedAs_[8 * byte + bit] = now;
-      message = {.op = RUNG_MESSAGE_SHOW, .number = now.number};
-      if (isListed()) message.value = now.key;
+      const bool continues = (bits >> bit & 1) != 0 && now == reported;
+      if (begins ? now.number == 0 : continues) continue;
+      if (begins) reported = now;
+      reported_[byte] = static_cast<uint8_t>(reported_[byte] ^ 1u << bit);
+      message = {.op = begins ? RUNG_MESSAGE_SHOW : RUNG_MESSAGE_CLEAR, .number = reported.number};
+      if (isListed()) message.value = reported.key;
       return true;
     }
   }
@@ -76,19 +55,18 @@ bool PmcMessages::nextChange(const runtime::Instance& instance, rung_message& me
   if (places_ == nullptr) return false;
   const Showing now = showing(instance);
   if (isAsSeen(instance.block().data(), now)) return false;
-  if (nextEnd(instance, now, message) || nextBeginning(instance, now, message)) return true;
+  if (nextChange(instance, now, false, message) || nextChange(instance, now, true, message)) return true;
   see(instance.block().data(), now);
   return false;
 }
 
 void PmcMessages::writeStates(const runtime::Instance& instance) const noexcept {
   if (places_ == nullptr || places_->states.empty()) return;
-  const bool display = displays(instance);
-  const uint32_t moved = shift(instance);
+  const Showing now = showing(instance);
   for (const uint32_t byte : places_->states) {
-    uint8_t shown = display ? instance.memory().readByte(places_->area, byte) : uint8_t{0};
+    uint8_t shown = bitsOf(instance, now, byte);
     for (uint32_t bit = 0; bit < 8; ++bit)
-      if (known(8 * byte + bit + 1, moved).number == 0) shown = static_cast<uint8_t>(shown & ~(1u << bit));
+      if (known(8 * byte + bit + 1, now.shift).number == 0) shown = static_cast<uint8_t>(shown & ~(1u << bit));
     instance.memory().writeByte(places_->area, kFirstState + byte, shown);
   }
 }

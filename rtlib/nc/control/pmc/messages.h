@@ -76,12 +76,13 @@ private:
   static bool isAlarm(uint32_t number) { return number >= kFirstAlarm && number < kFirstMessage; }
 
   bool isListed() const { return rule_ == pmc::MessageRule::ByTextList; }
-  // Whether messages are shown at all now (DISPB).
-  bool displays(const runtime::Instance& instance) const noexcept {
-    if (!isListed()) return true;
-    return places_->display != RUNG_NONE && instance.memory().readByte(places_->display, 0) != 0;
-  }
-  uint32_t shift(const runtime::Instance& instance) const noexcept;
+  // What decides, beside the A area, which messages are shown.
+  struct Showing {
+    bool display = false; // whether any is (DISPB)
+    uint32_t shift = 0;
+    bool operator==(const Showing&) const = default;
+  };
+  Showing showing(const runtime::Instance& instance) const noexcept;
   // The number and the key of an A bit's text, from 1; the number is 0 for a bit without a text. `key` is the number of
   // the text in the program's table.
   struct Known {
@@ -97,28 +98,17 @@ private:
   template <class See>
   bool forShown(const runtime::Instance& instance, See see) const;
 
-  // What decides, beside the A area, which messages are shown.
-  struct Showing {
-    bool display = false;
-    uint32_t shift = 0;
-    bool operator==(const Showing&) const = default;
-  };
-  Showing showing(const runtime::Instance& instance) const noexcept {
-    return {.display = displays(instance), .shift = shift(instance)};
-  }
   // Whether the bytes of the A area and `showing` are those of the last call of `see`, so that no message has changed.
   bool isAsSeen(const uint8_t* block, const Showing& showing) const noexcept;
   void see(const uint8_t* block, const Showing& showing) noexcept;
-  // Bits of one byte of the A area whose messages the host is to end, and the next message to begin; false: none.
-  uint8_t ended(uint32_t byte, uint8_t bits, const Showing& showing) const noexcept;
-  bool nextEnd(const runtime::Instance& instance, const Showing& showing, rung_message& message) noexcept;
-  bool nextBeginning(const runtime::Instance& instance, const Showing& showing, rung_message& message) noexcept;
-  void noteTexts(const rung_program& former, const rung_program& now) noexcept;
+  // The next message that ends or begins for the host; false: there is none.
+  bool nextChange(const runtime::Instance& instance, const Showing& showing, bool begins,
+                  rung_message& message) noexcept;
+  // A byte of the A area, or 0 if nothing is shown.
   uint8_t bitsOf(const runtime::Instance& instance, const Showing& showing, uint32_t byte) const noexcept;
 
   pmc::MessageRule rule_;
   const Places* places_ = nullptr; // of the program that runs now
-  const rung_program* program_ = nullptr;
   // Bits whose messages have been reported to the host as shown, and as what; a key of 0 is a text that the program no
   // longer has.
   std::array<uint8_t, kMostBytes> reported_{};
@@ -148,10 +138,9 @@ bool PmcMessages::forRequested(const uint8_t* block, See see) const {
 
 template <class See>
 bool PmcMessages::forShown(const runtime::Instance& instance, See see) const {
-  if (places_ == nullptr || !displays(instance)) return true;
-  const uint32_t moved = shift(instance);
-  return forRequested(instance.block().data(), [&](uint32_t bit) {
-    const Known found = known(bit, moved);
+  const Showing now = places_ == nullptr ? Showing() : showing(instance);
+  return !now.display || forRequested(instance.block().data(), [&](uint32_t bit) {
+    const Known found = known(bit, now.shift);
     return found.number == 0 || see(found.key, found.number);
   });
 }

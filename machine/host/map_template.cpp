@@ -80,7 +80,7 @@ public:
     const bool input = sides == RUNG_SPACE_INPUT || (sides != RUNG_SPACE_OUTPUT && !used.written);
     const bool output = sides == RUNG_SPACE_OUTPUT || (!input && !used.read);
     if (input && !written) return;
-    Row row{.type = pinTypeOf(info.type), .name = used.name, .comment = commentOf(used.name)};
+    Row row{.type = pinTypeOf(info.type), .name = used.name, .comment = commentOf(used.name, info.address)};
     if (input && info.type == RUNG_TYPE_I8) row.type = PinType::Bit, row.bits = kByteBits; // usually eight single bits
     row.pin = uniquePin(row);
     if (own)
@@ -137,10 +137,13 @@ private:
     return name;
   }
 
-  std::string commentOf(const std::string& name) const {
+  // The address, by which wiring diagrams go, and the comment of the program, if it is one line.
+  std::string commentOf(const std::string& name, const std::string& address) const {
+    std::string text = name == address ? "" : address;
     for (const rung_symbol& symbol : std::span(program_.symbols, program_.symbol_count))
-      if (name == symbol.name) return std::strpbrk(symbol.comment, "\n\r") == nullptr ? symbol.comment : "";
-    return {};
+      if (name == symbol.name && std::strpbrk(symbol.comment, "\n\r") == nullptr && *symbol.comment != '\0')
+        text += (text.empty() ? "" : ", ") + std::string(symbol.comment);
+    return text;
   }
 
   static std::string rows(const std::vector<Row>& list, const std::string& before) {

@@ -101,6 +101,22 @@ class Fanuc(unittest.TestCase):
             said = self.run_rungc("test", "lamp.scn", status=WRONG)[0]
             self.assertIn(f"lamp.scn:9: {name} is a constant of the control, in the code of the program: it cannot be forced", said)
 
+    def test_retained_memory_of_another_program(self):
+        """Names are found in either case; what a smaller type has no place for is reported by areas."""
+        def run(program, session):
+            done = subprocess.run([Path(RUNGC).resolve(), "run", "-i", "-q", "--retain", "kept", program], cwd=self.folder, input=session,
+                                  capture_output=True, text=True, timeout=patience(), check=False)
+            self.assertEqual(done.returncode, OK, done.stderr)
+            return done.stdout, done.stderr
+        ladder = "%@0\n4 0i-F PMC(MEM-B,FLT)\n%\n%@2\nD10 Count\n%\n%@3\nSUB 1\nRD X0.0\nWRT Y0.0\nSUB 2\nSUB 64\n%\n"
+        self.write("large.mne", ladder)
+        self.write("small.mne", ladder.replace("0i-F PMC(MEM-B,FLT)", "PMC-SA1").replace("D10 Count", "D20 COUNT"))
+        run("large.mne", "set Count 7\nset K50 3\nscan\n")
+        shown, said = run("small.mne", "print count D20\n")
+        self.assertIn("count = 7 (0x7), D20 = 7 (0x7)", shown)
+        self.assertIn("its cells are taken by name and address: removed C80 to C5199, moved COUNT, removed D1860 to D9999, "
+                      "removed K20 to K999, removed T80 to T9499\n", said)
+
     def test_xref_by_symbols_and_places(self):
         table = self.run_rungc("xref", "lamp.mne")[0]
         self.assertIn(f'RUN (R1.0)\n  written  rung 1 "the latch", lamp.mne:{LATCH}\n', table)

@@ -53,12 +53,12 @@ class Map(unittest.TestCase):
         text = self.map("tests/cnc/handshake.lad", "--template").stdout
         inputs, outputs = text.split("[out]")
         self.assertIn('estop-ok = { type = "bit", name = "ESTOP_OK" }', inputs)
-        self.assertIn('\nenable = { type = "bit", name = "ENABLE" } # to the CNC: 0 stops\n', outputs)
+        self.assertIn('\nenable = { type = "bit", name = "ENABLE" } # OUT000.00, to the CNC: 0 stops\n', outputs)
         self.assertIn('\ncp-m1ack = { type = "bit", name = "CP_M1ACK" }', outputs)
 
     def test_pins_of_a_template_have_the_comments_of_the_program(self):
         text = self.map("examples/gsk-mill", "--template").stdout
-        self.assertIn('lube-level = { type = "bit", name = "LUBE_LEVEL" } # oil level is good\n', text)
+        self.assertIn('lube-level = { type = "bit", name = "LUBE_LEVEL" } # X10.1, oil level is good\n', text)
         self.assertLess(text.index("[in]"), text.index("lube-level"))
         self.assertLess(text.index("[out]"), text.index("spindle-cw = "))
 

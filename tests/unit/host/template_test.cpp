@@ -45,7 +45,7 @@ TEST(Template, WhatTheMachineAndTheNcHave) {
       "\n# No rung writes these relays and registers of the program; a pin, [param] or [const] may:\n"
       "# d12-2 = { type = \"s32\", name = \"D12:2\" }\n"
       "\n[out]\n"
-      "sym = { type = \"bit\", name = \"SYM\" }\n"
+      "sym = { type = \"bit\", name = \"SYM\" } # Y1.2\n"
       "\n# M, S and T functions: an edge of a pin hands one to the program.\n#\n";
   EXPECT_EQ(text.substr(0, begin.size()), begin);
 }

@@ -20,12 +20,12 @@ protected:
   static constexpr uint32_t kF = 0, kG = 1, kA = 2, kDisplay = 3, kK = 4; // spaces
 
   // Keys are 8·byte + bit + 1; the last text is that of A0.1 in the language with a shift of 400 bits.
-  static void build(test::TestProgram& program) {
+  static void build(test::TestProgram& program, uint32_t messageBytes = 64) {
     program.dialect = "fanuc";
     program.memorySize = 4096;
     program.addPacked("F", 1, 768, 0);
     program.addPacked("G", 1, 768, 768);
-    program.addPacked("A", 1, 64, 1536);
+    program.addPacked("A", 1, messageBytes, 1536);
     program.addPacked("@DISPB", 1, 1, 1600);
     program.addPacked("K", 1, 1000, 1604);
     program.texts = {{2, 0, "1000 DOOR OPEN"},
@@ -148,6 +148,22 @@ TEST_F(FanucControl, AnotherProgramChangesATextAlone) {
   EXPECT_EQ(changes(), (Lines{"+EX1000 DOOR OPEN", "+2005 OIL LEVEL LOW", "+2100 COOLANT ON"}));
   replaceBy(other_);
   EXPECT_EQ(changes(), (Lines{"-2005", "-2100", "+2005 OIL LEVEL VERY LOW"}));
+}
+
+// That of a smaller type of the PMC.
+TEST_F(FanucControl, AnotherProgramHasFewerMessages) {
+  test::TestProgram smaller;
+  build(smaller, 1);
+  smaller.link();
+  set(kDisplay, 0, 0, true);
+  set(kA, 0, 1, true);
+  set(kA, 1, 0, true);
+  EXPECT_EQ(changes(), (Lines{"+EX1000 DOOR OPEN", "+2005 OIL LEVEL LOW"}));
+  runtime::Replacement replacement(instance_->program(), {smaller.program});
+  ASSERT_EQ(instance_->replace(replacement), runtime::ReplaceResult::Replaced);
+  set(kA, 0, 1, true);
+  EXPECT_EQ(changes(), Lines{"-2005"});
+  instance_.reset();
 }
 
 // As when the new program faults at once: what the host knows is right again.

@@ -7,9 +7,6 @@
 namespace rung::nc {
 namespace {
 
-// FANUC: the text in another language lies this many A bits further, as the word K918 says.
-constexpr uint32_t kShiftAt = 918;
-
 // The number at the beginning of a text of FANUC's list, "1000 DOOR OPEN".
 uint32_t numberOf(std::string_view text) {
   return text::numberIn<uint32_t>(text.substr(0, text.find(' '))).value_or(0);
@@ -48,9 +45,16 @@ PmcMessages::Places::Places(const rung_program& program, pmc::MessageRule rule)
 }
 
 void PmcMessages::Places::findStates(const rung_space& space) {
-  for (const rung_range& range : std::span(space.ranges, space.range_count))
-    for (uint32_t byte = range.first_byte; byte < range.first_byte + range.byte_count; ++byte)
-      if (byte >= kFirstState && byte - kFirstState < kMostBytes) states.push_back(byte - kFirstState);
+  for (const rung_range& range : std::span(space.ranges, space.range_count)) {
+    const uint32_t first = std::max(range.first_byte, kFirstState);
+    const uint32_t end = std::min(range.first_byte + range.byte_count, kFirstState + kMostBytes);
+    if (first >= end) continue;
+    const bool expanded = range.repr == RUNG_REPR_BYTE_PER_BIT;
+    states.push_back({.first = first - kFirstState,
+                      .count = end - first,
+                      .offset = range.offset + (first - range.first_byte) * (expanded ? 8 : 1),
+                      .expanded = expanded});
+  }
 }
 
 void PmcMessages::Places::readTexts(const rung_program& program) {
@@ -66,20 +70,15 @@ void PmcMessages::Places::readTexts(const rung_program& program) {
 
 void PmcMessages::powerOn() {
   known_.fill(0);
-  hasSeen_ = false;
+  for (Look* look : {&reported_, &stated_, &states_}) look->forget();
 }
 
 void PmcMessages::use(uint8_t* block, const Places& places) noexcept {
   places_ = &places;
-  hasSeen_ = false;
+  for (Look* look : {&reported_, &stated_, &states_}) look->forget();
   const uint8_t* written = places.written.data();
   for (const Piece& piece : places.pieces)
     for (uint32_t i = 0; i < piece.size(); ++i) block[piece.offset + i] &= *written++;
-}
-
-uint32_t PmcMessages::shift(const runtime::Instance& instance) const noexcept {
-  if (places_->shift == RUNG_NONE) return 0;
-  return static_cast<uint32_t>(instance.memory().read(places_->shift, kShiftAt, 2));
 }
 
 PmcMessages::Known PmcMessages::known(uint32_t bit, uint32_t shift) const noexcept {

@@ -3,30 +3,24 @@
 
 namespace rung::nc {
 
-bool PmcMessages::isAsSeen(const uint8_t* block, bool display) const noexcept {
-  if (!hasSeen_ || display != seenDisplay_) return false;
-  const uint8_t* seen = seen_.data();
-  for (const Piece& piece : places_->pieces) {
-    if (std::memcmp(block + piece.offset, seen, piece.size()) != 0) return false;
-    seen += piece.size();
+void PmcMessages::Look::take(const uint8_t* block, std::span<const Piece> pieces, bool display) noexcept {
+  uint8_t* bytes = bytes_.data();
+  for (const Piece& piece : pieces) {
+    std::memcpy(bytes, block + piece.offset, piece.size());
+    bytes += piece.size();
   }
-  return true;
-}
-
-void PmcMessages::see(const uint8_t* block, bool display) noexcept {
-  uint8_t* seen = seen_.data();
-  for (const Piece& piece : places_->pieces) {
-    std::memcpy(seen, block + piece.offset, piece.size());
-    seen += piece.size();
-  }
-  hasSeen_ = true;
-  seenDisplay_ = display;
+  has_ = true;
+  display_ = display;
 }
 
 bool PmcMessages::nextChange(const runtime::Instance& instance, rung_message& message) noexcept {
   if (places_ == nullptr) return false;
   const bool display = displays(instance);
-  if (isAsSeen(instance.block().data(), display)) return false;
+  if (reported_.isSame(instance.block().data(), places_->pieces, display)) return false;
+  return findChange(instance, display, message);
+}
+
+bool PmcMessages::findChange(const runtime::Instance& instance, bool display, rung_message& message) noexcept {
   const uint32_t moved = shift(instance);
   for (uint32_t byte = 0; byte < places_->bytes; ++byte) {
     const uint8_t bits = display ? instance.memory().readByte(places_->area, byte) : uint8_t{0};
@@ -40,20 +34,32 @@ bool PmcMessages::nextChange(const runtime::Instance& instance, rung_message& me
       return true;
     }
   }
-  see(instance.block().data(), display);
+  reported_.take(instance.block().data(), places_->pieces, display);
   return false;
 }
 
-void PmcMessages::writeStates(const runtime::Instance& instance) const noexcept {
+void PmcMessages::writeStates(const runtime::Instance& instance) noexcept {
   if (places_ == nullptr || places_->states.empty()) return;
+  const uint8_t* block = instance.block().data();
   const bool display = displays(instance);
   const uint32_t moved = shift(instance);
-  for (const uint32_t byte : places_->states) {
-    uint8_t shown = display ? instance.memory().readByte(places_->area, byte) : uint8_t{0};
-    for (uint32_t bit = 0; bit < 8; ++bit)
-      if (known(8 * byte + bit + 1, moved).number == 0) shown = static_cast<uint8_t>(shown & ~(1u << bit));
-    instance.memory().writeByte(places_->area, kFirstState + byte, shown);
+  const bool isSame = moved == statedShift_ && stated_.isSame(block, places_->pieces, display) &&
+                      states_.isSame(block, places_->states, display);
+  if (isSame) return;
+  for (const Piece& piece : places_->states) {
+    for (uint32_t byte = piece.first; byte < piece.first + piece.count; ++byte) {
+      const uint8_t requested = display ? instance.memory().readByte(places_->area, byte) : uint8_t{0};
+      uint8_t shown = requested;
+      for (uint32_t left = requested; left != 0; left &= left - 1) {
+        const auto bit = static_cast<uint32_t>(std::countr_zero(left));
+        if (known(8 * byte + bit + 1, moved).number == 0) shown = static_cast<uint8_t>(shown & ~(1u << bit));
+      }
+      instance.memory().writeByte(places_->area, kFirstState + byte, shown);
+    }
   }
+  statedShift_ = moved;
+  stated_.take(block, places_->pieces, display);
+  states_.take(block, places_->states, display);
 }
 
 bool PmcMessages::shows(const runtime::Instance& instance, std::span<const ShownMessage> these) const noexcept {

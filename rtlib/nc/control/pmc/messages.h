@@ -41,7 +41,7 @@ public:
     std::vector<uint32_t> numbers; // of texts, by the text's number in the program's table - 1; 0: there is none
     uint32_t display = RUNG_NONE;  // @DISPB
     uint32_t shift = RUNG_NONE;    // K, if it has the message shift
-    std::vector<uint32_t> states;  // the bytes of the A area whose state the program reads
+    std::vector<Piece> states;     // the bytes of the A area whose state the program reads
 
   private:
     void readTexts(const rung_program& program);
@@ -55,7 +55,7 @@ public:
   void use(uint8_t* block, const Places& places) noexcept;
 
   // By a text list only: the bits of A from byte kFirstState on say which messages are shown.
-  void writeStates(const runtime::Instance& instance) const noexcept;
+  void writeStates(const runtime::Instance& instance) noexcept;
 
   // As in Control.
   bool shows(const runtime::Instance& instance, std::span<const ShownMessage> these) const noexcept;
@@ -69,6 +69,8 @@ public:
 
 private:
   static constexpr uint32_t kFirstState = 9000;
+  // FANUC: the text in another language lies this many A bits further, as the word K918 says.
+  static constexpr uint32_t kShiftAt = 918;
   // FANUC's kinds of messages by number: alarms, operator messages, and from kFirstPlain on those without a number.
   static constexpr uint32_t kFirstAlarm = 1000, kFirstMessage = 2000, kFirstPlain = 2100;
   static bool isAlarm(uint32_t number) { return number >= kFirstAlarm && number < kFirstMessage; }
@@ -79,13 +81,40 @@ private:
     if (!isListed()) return true;
     return places_->display != RUNG_NONE && instance.memory().readByte(places_->display, 0) != 0;
   }
-  uint32_t shift(const runtime::Instance& instance) const noexcept;
+  uint32_t shift(const runtime::Instance& instance) const noexcept {
+    return places_->shift == RUNG_NONE ? 0 : static_cast<uint32_t>(instance.memory().read(places_->shift, kShiftAt, 2));
+  }
   // The number and the key of an A bit's text, from 1; the number is 0 for a bit without a text. `key` is the number of
   // the text in the program's table.
   struct Known {
     uint32_t number = 0, key = 0;
   };
   Known known(uint32_t bit, uint32_t shift) const noexcept;
+
+  // What messages and their states depend on, at some time: there is hardly ever something new.
+  class Look {
+  public:
+    void forget() noexcept { has_ = false; }
+    // Whether nothing has changed.
+    bool isSame(const uint8_t* block, std::span<const Piece> pieces, bool display) const noexcept {
+      if (!has_ || display != display_) return false;
+      const uint8_t* bytes = bytes_.data();
+      for (const Piece& piece : pieces) {
+        if (std::memcmp(block + piece.offset, bytes, piece.size()) != 0) return false;
+        bytes += piece.size();
+      }
+      return true;
+    }
+    void take(const uint8_t* block, std::span<const Piece> pieces, bool display) noexcept;
+
+  private:
+    std::array<uint8_t, size_t{8} * kMostBytes> bytes_{}; // of the pieces
+    bool has_ = false;
+    bool display_ = false;
+  };
+
+  // As nextChange, which only looks whether there is something new.
+  bool findChange(const runtime::Instance& instance, bool display, rung_message& message) noexcept;
 
   // Calls see(number) for each A bit that is 1, from 1, in order, until it returns false; returns whether it never did.
   template <class See>
@@ -94,17 +123,12 @@ private:
   template <class See>
   bool forShown(const runtime::Instance& instance, See see) const;
 
-  // Whether the bytes of the A area and the display are those of the last call of `see`, so that no message has
-  // changed.
-  bool isAsSeen(const uint8_t* block, bool display) const noexcept;
-  void see(const uint8_t* block, bool display) noexcept;
-
   pmc::MessageRule rule_;
-  const Places* places_ = nullptr;                     // of the program that runs now
-  std::array<uint8_t, kMostBytes> known_{};            // bits of messages as reported to the host
-  std::array<uint8_t, size_t{8} * kMostBytes> seen_{}; // bytes of the pieces at the last `see`
-  bool hasSeen_ = false;
-  bool seenDisplay_ = false; // the state of the display at the last `see`
+  const Places* places_ = nullptr;          // of the program that runs now
+  std::array<uint8_t, kMostBytes> known_{}; // bits of messages as reported to the host
+  Look reported_;                           // when all changes had been reported
+  Look stated_, states_;                    // when the states were written: the messages, and the states
+  uint32_t statedShift_ = 0;
 };
 
 // Nearly all bits are 0, so eight bytes of the block are tested at once.

@@ -11,7 +11,7 @@
 
 #include "machine/control/turn.h"
 #include "machine/control/values.h"
-#include "rtlib/change/forcing.h"
+#include "rtlib/load/written_bits.h"
 #include "rung/types.hpp"
 
 namespace rung::control {

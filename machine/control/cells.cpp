@@ -11,6 +11,7 @@
 
 #include "machine/control/turn.h"
 #include "machine/control/values.h"
+#include "rtlib/load/written_bits.h"
 #include "rung/types.hpp"
 
 namespace rung::control {
@@ -84,7 +85,33 @@ Cells::~Cells() = default;
 
 // ---- names ---------------------------------------------------------------------------------------------------------
 
-void Cells::learnSymbols(const rung_program& program) {
+namespace {
+
+// The bits of a byte that rungs write, in the byte itself or in a process image of it.
+uint8_t writtenBits(const rung_program& program, const rung_range& range, uint32_t byte) {
+  const auto written = [&](uint32_t offset) {
+    uint8_t mask = runtime::writtenBits(program, offset);
+    runtime::forCopiesOf(program, offset, [&](uint32_t copy) { mask |= runtime::writtenBits(program, copy); });
+    return mask;
+  };
+  if (range.repr != RUNG_REPR_BYTE_PER_BIT) return written(range.offset + byte);
+  uint8_t mask = 0;
+  for (uint32_t bit = 0; bit < 8; ++bit)
+    if (written(range.offset + 8 * byte + bit) != 0) mask |= static_cast<uint8_t>(1U << bit);
+  return mask;
+}
+
+} // namespace
+
+void Cells::learn(const rung_program& program) {
+  written_.assign(program.space_count, {});
+  for (uint32_t number = 0; number < program.space_count; ++number) {
+    const rung_space& space = program.spaces[number];
+    written_[number].resize(space.byte_count);
+    for (const rung_range& range : std::span(space.ranges, space.range_count))
+      for (uint32_t byte = 0; byte < range.byte_count; ++byte)
+        written_[number][range.first_byte + byte] = writtenBits(program, range, byte);
+  }
   formerSymbols_ = std::exchange(symbols_, {});
   for (const rung_symbol& symbol : std::span(program.symbols, program.symbol_count))
     if ((symbol.flags & RUNG_SYMBOL_HIDDEN) == 0) symbols_.emplace_back(symbol.name);
@@ -257,6 +284,17 @@ std::string Cells::refuseWithoutEffect(const std::string& name) {
              : "part of " + name + " is written before every slice, so setting it has no effect there: " + kept;
 }
 
+// "", or the sentence that rungs write the cell, too.
+std::string Cells::noteOfRungs(const std::string& name) const {
+  for (const Range& range : rangesOf(name))
+    for (uint64_t bit = range.first; bit < range.first + range.count; ++bit)
+      if (range.space < written_.size() && bit / 8 < written_[range.space].size() &&
+          (written_[range.space][bit / 8] >> (bit % 8) & 1) != 0)
+        return "rungs write " + name + ", or may write it by a computed address, so the next scan may overwrite it: " +
+               "forcing it holds it (rungctl force " + name + " VALUE)";
+  return {};
+}
+
 json Cells::set(const Peer& peer, const json& request) {
   const std::string name = textOf(request, "name");
   if (!request.contains("value")) throw Refused("found no \"value\" in the request, expected one");
@@ -264,6 +302,7 @@ json Cells::set(const Peer& peer, const json& request) {
   const uint32_t type = found.infos.front().type;
   refuseProtected(name);
   std::string note = refuseWithoutEffect(name);
+  if (note.empty()) note = noteOfRungs(name);
   const rung_value value = fromJson(type, request["value"], name);
   const host::Command done =
       plc_.post({.kind = host::Command::Kind::Write, .cell = found.cells.front(), .value = value});

@@ -31,9 +31,9 @@ public:
   // Sends changed values to the clients that watch them.
   void sendValues(Sink& sink);
 
-  // Learns the names of a program that runs from now on, for suggestions when a client mistypes one; the names of the
-  // previous program stay known, as a rollback may bring it back.
-  void learnSymbols(const rung_program& program);
+  // Learns the names of a program that runs from now on, for suggestions when a client mistypes one, and the bits that
+  // its rungs write; the names of the previous program stay known, as a rollback may bring it back.
+  void learn(const rung_program& program);
   // `access`: enum rung_access.
   rung_cell_info describe(const std::string& name, int32_t access) const;
   // Throws Refused if the cell shares bits with a protected cell of the running program: a reload may have moved
@@ -63,9 +63,11 @@ private:
   Share shareOf(const std::string& name, const std::vector<Range>& wanted) const;
   std::string writerOf(const host::PlcHost::Feed& feed, const std::vector<Range>& wanted) const;
   std::string refuseWithoutEffect(const std::string& name);
+  std::string noteOfRungs(const std::string& name) const;
 
   PlcAccess& plc_;
   std::vector<std::string> symbols_, formerSymbols_;       // of the running program, of the previous one
+  std::vector<std::vector<uint8_t>> written_;              // masks of the bits that rungs write, by space and byte
   std::map<uint32_t, std::unique_ptr<Watching>> watching_; // by peer
 };
 

@@ -142,7 +142,7 @@ json Changes::reload(const Peer& peer, const json& request) {
   report = putInPlace(made, pins.dead, std::move(report),
                       "another program has taken over in the meantime; all forces have ended");
   replacement_ = std::move(replacement);
-  cells_.learnSymbols(image.program());
+  cells_.learn(image.program());
   plc_.logChange(peer, "reload " + next.text + forces_.endedForces());
   return report;
 }

@@ -148,7 +148,7 @@ Controller::Controller(std::string host, host::PlcHost& plc, const Image& image,
       messages_(plc, log), cells_(plc_), compiler_(plc_), forces_(plc_, cells_, *programs_),
       changes_(plc_, cells_, forces_, compiler_, *programs_), services_(plc) {
   programs_->serveForces(image);
-  cells_.learnSymbols(image.program());
+  cells_.learn(image.program());
 }
 
 Controller::~Controller() { programs_->abandon(); }

@@ -489,6 +489,31 @@ rungs: 0 changed, 0 added, 0 removed, 0 moved, 1 unchanged
             done = subprocess.run([RUNGC, "diff", f"examples/{example}", f"examples/{example}"], capture_output=True, text=True, check=False)
             self.assertEqual((done.returncode, done.stderr), (SAME, ""))
 
+    def test_programs_of_several_files(self):
+        """Those of the newer version come after --to; the order of the files is that of the program."""
+        files = {}
+        for version, contact in (("old", "X9.0"), ("new", "X9.1")):
+            (Path(self.folder.name) / version).mkdir()
+            files[version] = [self.file(f"{version}/symbols.mne", f"%@2\n{contact} START\n%\n"),
+                              self.file(f"{version}/ladder.mne", "%@3\nEND1\nRD START\nWRT Y9.0\nEND2\nEND\n%\n")]
+        status, text, error = self.run_diff(*files["old"], "--to", *files["new"])
+        self.assertEqual((status, error), (OTHERWISE, ""))
+        self.assertIn("changed name START: X9.0 to X9.1\n", text)
+        self.assertRegex(text, r"rungs: 1 changed, 0 added, 0 removed, 0 moved, 0 unchanged\n$")
+        self.assertEqual(self.run_diff(*files["old"], "--to", *files["old"])[0], SAME)
+        self.assertEqual(self.run_diff(files["old"][1], "--to", files["old"][1])[0], OTHERWISE, "a symbol is missing")
+        self.file("new/rung.toml", 'dialect = "fanuc"\nfiles = ["symbols.mne", "ladder.mne"]\n[config]\n"tmr.1" = 96\n')
+        for newer in (files["new"], [Path(self.folder.name) / "new"]):
+            status, text, error = self.run_diff(*files["old"], "--to", *newer)
+            self.assertEqual((status, text.splitlines()[-2:]), (OTHERWISE, ["changed name START: X9.0 to X9.1", "rungs: 1 changed, 0 added, 0 removed, 0 moved, 0 unchanged"]))
+            self.assertEqual(error.splitlines(), [f"rungc: old/{name} is in no project: it is compared in the place of new/{name}, with all else of new/rung.toml"
+                                                  for name in ("symbols.mne", "ladder.mne")])
+        for words in (files["old"] + files["new"], files["old"][:1]):
+            status, text, error = self.run_diff(*words)
+            self.assertEqual((status, text), (USAGE, ""))
+            self.assertIn(f"found {len(words)} name", error)
+            self.assertIn("write those of the newer one after --to", error)
+
     def test_two_dialects(self):
         lad, pmc = self.file("a.lad", HEAD + ONE + END), self.file("b.pmc", "LD X0.0\nOUT Y0.0\nFUNC END1\nFUNC END2\n")
         done = subprocess.run([RUNGC, "diff", lad, pmc], capture_output=True, text=True, check=False)

@@ -32,7 +32,7 @@ def configure(bench, options):
     shutil.copytree(options.example, bench.home / "machine", ignore=shutil.ignore_patterns("*.scn"))
     folder = bench.home / "machine" / "linuxcnc"
     replace(folder / "machine.ini", "DISPLAY = axis\n", f"DISPLAY = ./{options.driver.name}\n")
-    for file in (HERE / "drive.py", HERE / "panel.py", PATIENCE, options.driver):
+    for file in (HERE / "drive.py", HERE / "panel.py", HERE / "pmc.py", PATIENCE, options.driver):
         shutil.copy(file, folder)
     for tool in (Path(options.rungc).parent / "rungctl", TOOLS / "rung-operator", TOOLS / "rung-services"):
         shutil.copy(tool, bench.home)

@@ -174,6 +174,10 @@ class Commands(Host):
         self.assertEqual(self.get("D8:2"), -1)
         changes = re.findall(r"\d{4}-\d\d-\d\d \d\d:\d\d:\d\d \S+ \(user \d+, process \d+\): (.*)", self.logged())
         self.assertEqual(changes, ["set D8:2 from 0 to 500", "set D8:2 from 500 to 16", "set D8:2 from 16 to -1"])
+        for name in ("Y0.0", "Y0"):  # a byte with a bit that rungs write
+            said = f"rungs write {name}, or may write it by a computed address, so the next scan may overwrite it: forcing it holds it (rungctl force {name} VALUE)\n"
+            self.assertTrue(self.ctl("set", name, "0").endswith(said), name)
+        self.assertNotIn("rungs write", self.ctl("set", "Y0.6", "1"))
 
     def test_bits_are_written_as_in_scenarios(self):
         for word, value in (("on", "true"), ("OFF", "false"), ("True", "true"), ("false", "false"), ("1", "true"), ("0", "false")):

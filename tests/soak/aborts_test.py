@@ -13,13 +13,14 @@ from pathlib import Path
 from bench import CNC, HERE, cnc_test, expect, folder, make_bench
 
 # Steps: name, functions-busy, strobe, ack.
+PMC = {"pins": {"in": {"estop-ok": "ESTOP_OK", "estop-button": "ESTOP_BUTTON"},
+                "out": {"enable": "ESP", "strobe": "MF", "ack": "FIN"}},
+       "steps": [["before the strobe", True, False, False], ["strobe up", True, True, False],
+                 ["acknowledged", True, True, True], ["strobe falling", True, False, True],
+                 ["done", False, None, None]]}
 DIALECTS = {
-    "gsk": {"suffix": ".pmc",
-            "pins": {"in": {"estop-ok": "ESTOP_OK", "estop-button": "ESTOP_BUTTON"},
-                     "out": {"enable": "ESP", "strobe": "MF", "ack": "FIN"}},
-            "steps": [["before the strobe", True, False, False], ["strobe up", True, True, False],
-                      ["acknowledged", True, True, True], ["strobe falling", True, False, True],
-                      ["done", False, None, None]]},
+    "fanuc": {"suffix": ".mne", **PMC},
+    "gsk": {"suffix": ".pmc", **PMC},
     "nct": {"suffix": ".lad",
             "pins": {"in": {"estop-ok": "ESTOP_OK", "estop-button": "ESTOP_BUTTON"},
                      "out": {"enable": "ENABLE", "strobe": "STROBE", "ack": "CP_M1ACK"}},

@@ -35,6 +35,18 @@ def gsk():
     return Program("gsk", "\n".join(lines) + "\n", cells, 16, 0.008, 0.2)
 
 
+# D, then the values of C, then the keep relays of the user; T and presets are not the program's.
+def fanuc():
+    move = "RD R99.0\nMOVN\n{}\n{}\n{}".format
+    size, keep = 10000, 20
+    lines = ["%@0\n4 0i-F PMC(MEM-B)\n%\n%@3\nEND1", "RD.NOT R99.7\nWRT R99.0",
+             "RD R99.7\nRD.STK R99.0\nADDB\n2\nD0\n1\nD0\nWRT R99.6",
+             doubling(2, size, lambda count, to: move(count, "D0", f"D{to}")),
+             *(move(2, "D0", f"C{to}") for to in range(2, 400, 4)), move(keep, "D0", "K0"), "END2\nEND\n%"]
+    cells = [*(f"D{i}:2" for i in range(0, size, 2)), *(f"C{i}:2" for i in range(2, 400, 4)), *(f"K{i}:2" for i in range(0, keep, 2))]
+    return Program("fanuc", "\n".join(lines) + "\n", cells, 16, 0.008, 0.2)
+
+
 # 1024 words, over several time slices of MAIN.
 def nct():
     rungs = ["|--[N_ON]--{ADD 4000 4000 #1}"] + [f"|--[N_ON]--{{MOV {word} 4000}}" for word in range(4001, 5024)]
@@ -52,5 +64,5 @@ def technol():
     return Program("technol", text, [f"PLC_MEM_BACKUP+{i}:4" for i in range(0, 10000, 4)], 32, 0.020, 0.005)
 
 
-SUFFIX = {"gsk": ".pmc", "nct": ".lad", "technol": ".plc"}
-ALL = (gsk, nct, technol)
+SUFFIX = {"fanuc": ".mne", "gsk": ".pmc", "nct": ".lad", "technol": ".plc"}
+ALL = (fanuc, gsk, nct, technol)

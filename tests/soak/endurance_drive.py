@@ -8,7 +8,7 @@ import linuxcnc
 from drive import check, command, done, errors, mdi, polled, set_mode, status, wait
 from driver import run, switch_on
 
-HOSTS = ("gsk", "nct", "technol")
+HOSTS = ("fanuc", "gsk", "nct", "technol")
 PINS = ("scans", "missed", "functions-lost", "fault")
 LINES = ("M3 S1000", "G1 X10 F3000", "T{} M6", "M5", "G1 X0")
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The programs of all three dialects run in one LinuxCNC for ten minutes: endurance_test.py BIN MODULE [--minutes N]
+"""The programs of all dialects run in one LinuxCNC for ten minutes: endurance_test.py BIN MODULE [--minutes N]
 
 MDI, part programs, tool changes, an e-stop a minute. Counted are passes, those that were missed, faults, functions and messages that
 were lost, and what rtapi_app has of memory, threads and open files.
@@ -14,7 +14,7 @@ from pathlib import Path
 from aborts_test import DIALECTS, machine, pins
 from bench import HERE, Figures, check_growth, cnc_test, compiled, expect, folder, make_bench, named, printed, session
 
-PERIOD = {"gsk": 0.008, "nct": 0.010, "technol": 0.020}
+PERIOD = {"fanuc": 0.008, "gsk": 0.008, "nct": 0.010, "technol": 0.020}
 GROWTH = 256  # kB
 # What LinuxCNC prints into the lines of others.
 OF_OTHERS = r"(UNEXPECTED \S+ \d+|task: main loop took \S+ seconds|Shutting down and cleaning up LinuxCNC\.\.\.)\n"
@@ -29,7 +29,7 @@ def prepare(bench, minutes):
         bench.file(name + ".map", counted + pins(dialect["pins"]) + (HERE / "steps.map").read_text(encoding="utf-8"))
     bench.file("seconds.txt", str(60 * minutes))
     machine(bench, HERE / "endurance_drive.py")
-    bench.copy(HERE / "three.hal", "machine.hal")
+    bench.copy(HERE / "all.hal", "machine.hal")
 
 
 def watch(bench, minutes):

@@ -13,6 +13,20 @@ from pathlib import Path
 from bench import Figures, check_growth, cnc_test, compiled, expect, folder, make_bench, named, printed, session, wait
 
 # An output that follows the pin `run`, one that is its opposite and a number, in each dialect.
+FANUC = """%@3
+END1
+RD X1.0
+WRT Y0.0
+RD.NOT X1.0
+WRT Y0.1
+RD X1.0
+MOVB
+X2
+D0
+END2
+END
+%
+"""
 GSK = """dialect gsk
 FUNC END1
 LD   X1.0
@@ -63,7 +77,9 @@ out.lamp = {{ type = "bit", name = "{}" }}
 out.brake = {{ type = "bit", name = "{}", safe = true }}
 out.value = {{ type = "s32", name = "{}", safe = -5 }}
 """
-PROGRAMS = {"gsk": (".pmc", GSK, MAP.format("X1.0", "X2", "Y0.0", "Y0.1", "D0")),
+PMC_MAP = MAP.format("X1.0", "X2", "Y0.0", "Y0.1", "D0")
+PROGRAMS = {"fanuc": (".mne", FANUC, PMC_MAP),
+            "gsk": (".pmc", GSK, PMC_MAP),
             "nct": (".lad", NCT, MAP.format("INP000.00", "INP001", "OUT000.00", "OUT000.01", "7000")),
             "technol": (".plc", TECHNOL, MAP.format("ON", "BYTE.NUMBER", "LAMP", "BRAKE", "BYTE.VALUE"))}
 
@@ -109,7 +125,7 @@ def prepare(bench, count):
         bench.programs.add(compiled(bench.rungc, bench.file(name + suffix, text), bench.home / f"{name}.so"))
         bench.file(name + ".map", map_text)
     bench.file("look.sh", LOOK).chmod(0o755)
-    loads = "".join(LOAD.format(list(PROGRAMS)[i % 3]) for i in range(count))
+    loads = "".join(LOAD.format(list(PROGRAMS)[i % len(PROGRAMS)]) for i in range(count))
     bench.file("test.hal", BEGIN + loads + "show funct\nstatus mem\n")
 
 

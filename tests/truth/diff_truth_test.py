@@ -23,11 +23,12 @@ EDITS = 50  # of a program; in a large run as many of each of ROUNDS seeds
 ROUNDS = 8
 TRIES = 40  # for one edit: where it does not suit the place that was drawn, the compiler refuses the program
 
-SMALL = {"nct": ["nct-lathe"], "gsk": ["gsk-mill"], "technol": ["technol-mill"]}
+SMALL = {"nct": ["nct-lathe"], "gsk": ["gsk-mill"], "technol": ["technol-mill"], "fanuc": ["fanuc-vmc"]}
 ALL = {
     "nct": ["nct-lathe", "nct-turning-centre"],
     "gsk": ["gsk-mill", "gsk-panel", "first-cnc"],
     "technol": ["technol-mill", "technol-magazine", "technol-machining-centre"],
+    "fanuc": ["fanuc-vmc"],
 }
 
 TEXT = re.compile(r"\"[^\"]*\"|'[^']*'")
@@ -53,15 +54,16 @@ class Edit:
 class Source:
     def __init__(self, folder, dialect, rng):
         self.folder, self.dialect, self.rng = folder, dialect, rng
-        ending = {"nct": "*.lad", "gsk": "*.[lp][am][dc]", "technol": "*.plc"}[dialect]
+        ending = {"nct": "*.lad", "gsk": "*.[lp][am][dc]", "technol": "*.plc", "fanuc": "*.mne"}[dialect]
         self.files = {path.name: path.read_text().splitlines() for path in sorted(folder.glob(ending))}
         self.file = rng.choice(sorted(self.files))
         self.lines = list(self.files[self.file])
         self.is_ladder = self.file.endswith(".lad")
+        self.without_code = set(outside_ladder(self.lines)) if dialect == "fanuc" else ()
 
     def code(self, at):
-        """Without the remark; a mark inside a text does not count."""
-        return code_of(self.lines[at])
+        """Without the remark; a mark inside a text does not count. Of a mnemonic file only the ladder."""
+        return "" if at in self.without_code else code_of(self.lines[at])
 
     def pick(self, found):
         found = list(found)
@@ -72,10 +74,15 @@ class Source:
     def edit(self, **what):
         return Edit(self.file, self.lines, **what)
 
+    def is_in_message(self, word):
+        """Texts of messages have no quotes in a mnemonic file."""
+        return self.dialect == "fanuc" and any(re.match(r"A\d", line) and re.search(rf"\b{word}\b", line) for line in self.lines)
+
     def occurs(self, word):
-        """Lines of all files with the word in their code, as (file, line)."""
+        """Lines of all files with the word in their code, as (file, line); of a mnemonic file in its ladder."""
         pattern = re.compile(rf"(?<![\w]){re.escape(word)}(?![\w])", re.IGNORECASE if self.dialect == "technol" else 0)
-        return [(file, i) for file, lines in self.files.items() for i, line in enumerate(lines) if pattern.search(TEXT.sub("", code_of(line)))]
+        return [(file, i) for file, lines in self.files.items() for i, line in enumerate(lines)
+                if pattern.search(TEXT.sub("", code_of(line))) and not (file == self.file and i in self.without_code)]
 
     def replace_word(self, word, other):
         """Not in texts: what is there is another thing of that name, as a key of the control's configuration."""
@@ -83,6 +90,15 @@ class Source:
         for i, line in enumerate(self.lines):
             code = code_of(line)
             self.lines[i] = pattern.sub(lambda found: found[1] or other, code) + line[len(code):]
+
+
+def outside_ladder(lines):
+    """Of a mnemonic file: lines of other sections, and comments."""
+    inside = False
+    for at, line in enumerate(lines):
+        inside = line.startswith("%@3") if line.startswith("%") else inside
+        if not inside or line.startswith(("%", "(*")):
+            yield at
 
 
 def code_of(line):
@@ -104,9 +120,17 @@ LADDER_HEADS = re.compile(r"(rung|module|section|symbol|const|message|button|dia
 LOGIC = {
     "gsk": re.compile(r"\s*(LD|LDI|AND|ANI|OR|ORI|ORB|ANB|OUT|OUTI|SET|RST)\b"),
     "technol": re.compile(r"\s*(LDR|LA|LO|LX|CA|WR|FL|FL0|FL1)\b"),
+    "fanuc": re.compile(r"\s*((RD|RD\.NOT|RD\.STK|RD\.NOT\.STK|AND|AND\.NOT|OR|OR\.NOT|WRT|WRT\.NOT|SET|RST)\s+\S|(AND|OR)\.STK\s*$)"),
 }
-BEGINS = {"gsk": re.compile(r"\s*LDI?\s"), "technol": re.compile(r"\s*LDR\s")}
-ENDS = {"gsk": re.compile(r"\s*(OUT|OUTI|SET|RST)\s"), "technol": re.compile(r"\s*(WR|FL|FL0|FL1)\s")}
+BEGINS = {"gsk": re.compile(r"\s*LDI?\s"), "technol": re.compile(r"\s*LDR\s"), "fanuc": re.compile(r"\s*RD(\.NOT)?\s")}
+ENDS = {"gsk": re.compile(r"\s*(OUT|OUTI|SET|RST)\s"), "technol": re.compile(r"\s*(WR|FL|FL0|FL1)\s"), "fanuc": re.compile(r"\s*(WRT|WRT\.NOT|SET|RST)\s")}
+# Of contacts: those that are not negated, the same negated, and all with their bit; of a rung its words.
+PLAIN = {"gsk": {"LD": "LDI", "AND": "ANI", "OR": "ORI"}, "fanuc": {"RD": "RD.NOT", "RD.STK": "RD.NOT.STK", "AND": "AND.NOT", "OR": "OR.NOT"}}
+CONTACT = {"gsk": r"\s*(?:LD|AND|OR|LDI|ANI|ORI)\s+(\w+(?:\.\d)?)\s*$", "technol": r"\s*(?:LDR|LA|LO)\s+(\w+)\s*$",
+           "fanuc": r"\s*(?:RD|AND|OR)(?:\.NOT)?(?:\.STK)?\s+(\S+)\s*$"}
+COIL = {"gsk": r"\s*OUT\s+(\S+)", "technol": r"\s*WR\s+(\w+)\s*$", "fanuc": r"\s*WRT\s+(\S+)", "nct": r"--\((\w+)\)\s*$"}
+FIRST = {"gsk": r"\s*LD\s+(\S+)", "technol": r"\s*LDR\s+(\w+)\s*$", "fanuc": r"\s*RD\s+(\S+)", "nct": r"\|--\[(\w+)\]"}
+WORDS = {"gsk": ("LD ", "ANI ", "OUT "), "technol": ("LDR ", "LA  -", "WR "), "fanuc": ("RD ", "AND.NOT ", "WRT ")}
 
 
 def ladder_rungs(source):
@@ -128,7 +152,7 @@ def equations(source):
     found = []
     for first, following in zip(borders, borders[1:]):
         body = [i for i in code if first <= i < following]
-        one_load = source.dialect == "gsk" or sum(1 for i in body if begin.match(source.code(i))) == 1
+        one_load = source.dialect != "technol" or sum(1 for i in body if begin.match(source.code(i))) == 1
         if one_load and all(LOGIC[source.dialect].match(source.code(i)) for i in body):
             found.append((first, body[-1] + 1))
     return found
@@ -153,7 +177,7 @@ def remark(source):
 
 
 def remark_behind(source):
-    at = source.pick(i for i in range(len(source.lines)) if ";" not in source.lines[i] and source.lines[i].strip() and not source.lines[i].startswith("include"))
+    at = source.pick(i for i in range(len(source.lines)) if ";" not in source.lines[i] and source.code(i).strip() and not source.lines[i].startswith("include"))
     source.lines[at] += "  ; another remark"
     return source.edit()
 
@@ -187,7 +211,7 @@ def title(source):
 
 def spelling(source):
     """Another spelling of a number."""
-    number = {"nct": r"#(\d+)\b", "gsk": r"\b(?:PRM|FUNC)(\s+)(\d+)\s*$", "technol": r"(\bCNST\.|\bTIM\s+\S+,)(\d+)\b"}[source.dialect]
+    number = {"nct": r"#(\d+)\b", "gsk": r"\b(?:PRM|FUNC)(\s+)(\d+)\s*$", "fanuc": r"^\s*(?:SUB\s+)?(\d+)\s*$", "technol": r"(\bCNST\.|\bTIM\s+\S+,)(\d+)\b"}[source.dialect]
     at = source.pick(i for i in range(len(source.lines)) if re.search(number, source.code(i)) and not re.search(r"JMP|JME|SBS|SBN|\.\d", source.code(i).replace("CNST.", "")))
     code = source.code(at)
     if source.dialect == "nct":  # in a rung of several lines as long as before, or these had to be laid out anew
@@ -198,7 +222,7 @@ def spelling(source):
         new = re.sub(number, other, code)
         if new == code or (not alone and len(new) != len(code)):
             raise Unsuitable
-    elif source.dialect == "gsk":
+    elif source.dialect in ("gsk", "fanuc"):
         new = re.sub(r"(\d+)\s*$", r"0\1", code)
     else:
         new = re.sub(number, lambda m: f"{m[1]}0{int(m[2]):X}h", code)
@@ -222,10 +246,15 @@ def label(source):
         used = {m for line in source.lines for m in re.findall(r"\b[LP]\d+\b", code_of(line))}
         new = next(f"{old[0]}{n}" for n in range(900, 0, -1) if f"{old[0]}{n}" not in used)
         source.replace_word(old, new)
+    elif source.dialect == "fanuc":
+        raise Unsuitable  # subprograms have names here, whose numbers are those of symbols
     else:
         old = source.pick(sorted({m for line in source.lines for m in re.findall(r"^(\w+):\s*(?:$|LDR|LOD|EX|FL)", code_of(line))}))
         source.replace_word(old, "LABEL_" + old[:20])
     return source.edit()
+
+
+SYMBOL = {"nct": r"symbol\s+(\w+)\s", "gsk": r"symbol\s+(\w+)\s", "fanuc": r"(\w+),[XYRDKFG]\d+"}
 
 
 def renamed(source):
@@ -234,7 +263,7 @@ def renamed(source):
         bits = {name for _, names in flags(source) for name in names if name}
         old = source.pick(sorted(bits | {m[1] for line in source.lines if (m := re.match(r"(\w+):\s+(?:DS|DFM)\s", code_of(line)))}))
     else:
-        old = source.pick(m[1] for line in source.lines if (m := re.match(r"symbol\s+(\w+)\s", line)) and len(source.occurs(m[1])) >= 1)
+        old = source.pick(m[1] for line in source.lines if (m := re.match(SYMBOL[source.dialect], line)) and source.occurs(m[1]) and not source.is_in_message(m[1]))
     drawn = any("|" in source.files[file][i] for file, i in source.occurs(old))
     new = ("Z" + old[1:]) if drawn else old + "X"
     if source.occurs(new):
@@ -299,11 +328,12 @@ def negated(source):
         at = source.rng.choice(contacts) + 1
         source.lines[begin + 1] = source.lines[begin + 1][:at] + "/" + source.lines[begin + 1][at:]
         return source.edit(rungs=[("changed", begin, begin)])
-    contact = {"gsk": r"(\s*)(LD|AND|OR)(\s+\S+)", "technol": r"(\s*)(LDR|LA|LO)(\s+)(\w+)\s*$"}[source.dialect]
+    plain = PLAIN.get(source.dialect, {})
+    contact = rf"(\s*)({'|'.join(map(re.escape, plain))})(?=\s+\S)" if plain else r"(\s*)(LDR|LA|LO)(\s+)(\w+)\s*$"
     at = source.pick(i for i in range(len(source.lines)) if re.match(contact, source.code(i)))
     code = source.code(at)
-    if source.dialect == "gsk":
-        new = re.sub(r"^(\s*)(LD|AND|OR)\b", lambda m: m[1] + {"LD": "LDI", "AND": "ANI", "OR": "ORI"}[m[2]], code)
+    if plain:
+        new = re.sub("^" + contact, lambda m: m[1] + plain[m[2]], code)
     else:
         new = re.sub(contact, r"\1\2\3-\4", code)
     source.lines[at] = new + source.lines[at][len(code):]
@@ -312,7 +342,7 @@ def negated(source):
 
 def operand(source):
     """Another bit in a contact."""
-    contact = {"gsk": r"\s*(?:LD|AND|OR|LDI|ANI|ORI)\s+(\w+(?:\.\d)?)\s*$", "technol": r"\s*(?:LDR|LA|LO)\s+(\w+)\s*$"}.get(source.dialect)
+    contact = CONTACT.get(source.dialect)
     if source.is_ladder:
         begin, end = source.pick(r for r in ladder_rungs(source) if r[1] - r[0] == 2 and re.search(r"\[\w+\]", source.lines[r[0] + 1]))
         at = begin + 1
@@ -331,13 +361,12 @@ def operand(source):
 
 def new_rung(source):
     """A contact and a coil that occur elsewhere, so that no name is new."""
-    coil = re.compile({"gsk": r"\s*OUT\s+(\S+)", "technol": r"\s*WR\s+(\w+)\s*$", "nct": r"--\((\w+)\)\s*$"}["nct" if source.is_ladder else source.dialect])
+    coil = re.compile(COIL["nct" if source.is_ladder else source.dialect])
     a = bits(source)
     b = source.pick(sorted({m[1] for i in range(len(source.lines)) if (m := coil.search(source.code(i)))}))
     if source.is_ladder:
         return ["rung", f"|--[{a}]--[/{b}]--(9870.05)", ""]
-    words = ("LD", "ANI", "OUT") if source.dialect == "gsk" else ("LDR", "LA  -", "WR")
-    return [f"        {words[0]} {a}", f"        {words[1]}{'' if words[1].endswith('-') else ' '}{b}", f"        {words[2]} {b}"]
+    return [f"        {word}{bit}" for word, bit in zip(WORDS[source.dialect], (a, b, b))]
 
 
 def inserted(source):
@@ -348,7 +377,7 @@ def inserted(source):
 
 def bits(source):
     """A contact that occurs elsewhere."""
-    contact = re.compile({"gsk": r"\s*LD\s+(\S+)", "technol": r"\s*LDR\s+(\w+)\s*$", "nct": r"\|--\[(\w+)\]"}["nct" if source.is_ladder else source.dialect])
+    contact = re.compile(FIRST["nct" if source.is_ladder else source.dialect])
     return source.pick(sorted({m[1] for i in range(len(source.lines)) if (m := contact.match(source.code(i)))}))
 
 
@@ -366,6 +395,8 @@ def jumped_over(source):
         jump, label = ["rung", f"|--[{bit}]--{{JMP #97}}", ""], ["rung", "|--{JME #97}", ""]
     elif source.dialect == "gsk":
         jump, label = [f"LD {bit}", "FUNC JMPB", "PRM L990"], ["FUNC LBL", "PRM L990"]
+    elif source.dialect == "fanuc":
+        jump, label = [f"RD {bit}", "JMPB L990"], ["LBL L990"]
     else:
         jump, label = [f"        LDR {bit}", "        JL1 A_NEW_LABEL"], ["A_NEW_LABEL:"]
     source.lines[end:end] = label
@@ -424,6 +455,8 @@ def moved(source):
 
 def jump(source):
     """Another target."""
+    if source.dialect == "fanuc":
+        raise Unsuitable  # each subprogram is called once, and what nothing calls is not in the program
     pattern = {"nct": r"\b(JMP|SBS) #(\d+)", "gsk": r"\bPRM\s+(P)(\d+)\s*$", "technol": r"\b(JL0|JL1|JUM)\s+(\w+)"}[source.dialect]
     at = source.pick(i for i in range(len(source.lines)) if re.search(pattern, source.code(i)) and not (source.dialect == "gsk" and re.search(r"FUNC\s+SP\b", source.lines[i - 1])))
     code = source.code(at)
@@ -459,7 +492,8 @@ def constant(source):
 
 def address(source):
     """The address of a name: that, and the rungs that use it."""
-    pattern = {"nct": r"(symbol\s+)(\w+)(\s+)(\d{4}\.\d\d)(?!\S)", "gsk": r"(symbol\s+)(\w+)(\s+)([RD]\d+\.\d)(?!\S)"}.get(source.dialect)
+    pattern = {"nct": r"(symbol\s+)(\w+)(\s+)(\d{4}\.\d\d)(?!\S)", "gsk": r"(symbol\s+)(\w+)(\s+)([RD]\d+\.\d)(?!\S)",
+               "fanuc": r"()(\w+)(,)([RD]\d+\.\d)(?=,)"}.get(source.dialect)
     if pattern is None:
         raise Unsuitable
     at = source.pick(i for i in range(len(source.lines)) if re.match(pattern, source.lines[i]))
@@ -474,7 +508,7 @@ def address(source):
 
 
 def message(source):
-    pattern = {"nct": r'((message|button)\s+(\d+)\s+")([^"{]+)(")', "gsk": r"((\d+)()\s+\")([^\"]+)(\")"}.get(source.dialect)
+    pattern = {"nct": r'((message|button)\s+(\d+)\s+")([^"{]+)(")', "gsk": r"((\d+)()\s+\")([^\"]+)(\")", "fanuc": r"(A\d+\.\d()()\s+\d+\s+)(.+?)()$"}.get(source.dialect)
     if source.dialect == "gsk":
         if not (source.folder / "mill.msg").exists():
             raise Unsuitable
@@ -499,7 +533,7 @@ def content(source):
 
 
 def configuration(source):
-    key = {"nct": ("period_us", 40000), "gsk": ("tmr.7", 480), "technol": ("period_us", 10000)}[source.dialect]
+    key = {"nct": ("period_us", 40000), "gsk": ("tmr.7", 480), "fanuc": ("tmr.7", 480), "technol": ("period_us", 10000)}[source.dialect]
     text = (source.folder / "rung.toml").read_text()
     if key[0] in text:
         raise Unsuitable

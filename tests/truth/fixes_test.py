@@ -22,14 +22,15 @@ import root  # noqa: E402
 root.go_to_root()
 RUNGC = sys.argv.pop(1)
 LARGE = os.environ.get("RUNG_TRUTH") == "large"
-COUNT = int(sys.argv.pop(1)) if len(sys.argv) > 1 and sys.argv[1].isdigit() else 500 if LARGE else 90
+COUNT = int(sys.argv.pop(1)) if len(sys.argv) > 1 and sys.argv[1].isdigit() else 500 if LARGE else 120
 SEED = 20261
 ROUNDS = 12  # of all fixes: what was read wrongly may hide another mistake
 
-DIALECTS = {"nct": [".lad"], "gsk": [".pmc", ".lad"], "technol": [".plc"]}
+DIALECTS = {"nct": [".lad"], "gsk": [".pmc", ".lad"], "technol": [".plc"], "fanuc": [".mne", ".lad"]}
 PROJECTS = {"nct": ["examples/nct-lathe", "examples/nct-turning-centre"],
             "gsk": ["examples/gsk-mill", "examples/gsk-panel", "examples/first-cnc"],
-            "technol": ["examples/technol-magazine", "examples/technol-mill", "examples/technol-machining-centre"]}
+            "technol": ["examples/technol-magazine", "examples/technol-mill", "examples/technol-machining-centre"],
+            "fanuc": ["examples/fanuc-vmc"]}
 
 # What users of other controls write, by dialect: here, there; and whether it means the same.
 FOREIGN = {
@@ -40,6 +41,8 @@ FOREIGN = {
             ("(R ", "(RESET "), ("[/", "[NOT ")],
     "technol": [("LDR", "LD"), ("WR", "ST"), ("PROC_CALL", "CAL"), ("JL1", "JMPC"), ("JL0", "JMPCN"), ("WR", "WRT"),
                 ("LDR -", "LDR NOT "), ("LA -", "LA NOT "), ("LO -", "LO NOT ")],
+    "fanuc": [("WRT", "OUT"), ("WRT", "ST"), ("WRT", "="), ("WRT.NOT", "OUTI"), ("WRT.NOT", "STN"), ("AND.NOT", "AND NOT"), ("AND.NOT", "ANI"), ("AND.NOT", "ANDN"), ("OR.NOT", "ORI"),
+              ("OR.NOT", "OR NOT"), ("AND.STK", "ANB"), ("OR.STK", "ORB"), ("RST", "RESET"), ("RD", "LD"), ("RD.NOT", "LDI"), ("SUB", "FUNC"), ("(S ", "(SET "), ("[/", "[NOT ")],
 }
 LOOK_ALIKES = {"A": "А", "B": "В", "C": "С", "E": "Е", "H": "Н", "K": "К", "M": "М", "O": "О", "P": "Р", "T": "Т", "X": "Х",
                "-": "–", " ": "\u00a0", "(": "（", ")": "）", ".": "．", "0": "０"}

@@ -1,4 +1,4 @@
-"""Instructions that the example machines execute per part: a scan, for GSK a slot of 8 ms."""
+"""Instructions that the example machines execute per part: a scan, for FANUC and GSK a slot of 8 ms."""
 import tempfile
 from pathlib import Path
 
@@ -11,6 +11,7 @@ IDLE_PARTS = (200, 500)  # the first one that is counted, and how many
 SEEN_PART = 100  # the one whose cache lines of code are counted
 
 MACHINES = {
+    "fanuc-vmc": {"part program": "nc-program.scn", "tool change": "tool-change.scn"},
     "gsk-mill": {"part program": "nc-program.scn", "tool change": "tool-change.scn"},
     "nct-turning-centre": {"part program": "nc-program.scn", "tool change": "nc-tools.scn"},
     "technol-machining-centre": {"part program": "part-program.scn", "tool change": "tool-change.scn"},
@@ -20,10 +21,10 @@ HEAD = """## Instructions of the example machines
 
 Exact counts by callgrind: a program built by `rungc build`, in a host of the runtime library with
 the control of its dialect. What the machine does comes from a recording; writing it into the
-program's memory is not counted. The unit is a scan, for GSK a slot of 8 ms. After each one a hash
-of the program's memory is compared with the interpreter's. `./dev bench --count` prints this table
-and the next ones only. "With its profile": built with `--profile-use` from the counts that
-`rungc profile -o` took of the part program. Cache lines of code: lines of 64 bytes that the
+program's memory is not counted. The unit is a scan, for FANUC and GSK a slot of 8 ms. After each
+one a hash of the program's memory is compared with the interpreter's. `./dev bench --count` prints
+this table and the next ones only. "With its profile": built with `--profile-use` from the counts
+that `rungc profile -o` took of the part program. Cache lines of code: lines of 64 bytes that the
 compiled rungs execute in one scan or slot; a scan after a sleep loads each of them.
 """
 

@@ -18,15 +18,15 @@ namespace {
 namespace fs = std::filesystem;
 
 struct DiffOptions {
-  std::string before;
-  std::string after;
+  std::vector<std::string> files; // of the older version; without `newer` of both
+  std::vector<std::string> newer;
   SourceOptions common; // without files
   std::string format = "text";
 };
 
 // One of the two versions, with the project that it names or belongs to.
 struct Side {
-  std::string name;
+  std::vector<std::string> names;
   SourceOptions options;
   SourceManager sources;
   std::optional<compiler::Compiled> compiled;
@@ -34,12 +34,21 @@ struct Side {
 
 int takeSide(Side& side, const DiffOptions& options) {
   side.options = options.common;
-  side.options.files = {side.name};
+  side.options.files = side.names;
   side.options.quiet = true;
   return takeProject(side.options);
 }
 
-// ---- a copy of one file compared with its project -----------------------------------------------------------------
+// The names of the older and the newer version; false if it is not clear which is which.
+bool takeNames(const DiffOptions& options, Side& before, Side& after) {
+  const bool isPair = options.newer.empty();
+  if (isPair && options.files.size() != 2) return false;
+  before.names = isPair ? std::vector(1, options.files[0]) : options.files;
+  after.names = isPair ? std::vector(1, options.files[1]) : options.newer;
+  return true;
+}
+
+// ---- copies of files compared with their project ------------------------------------------------------------------
 
 // The project file that a copy replaces: the one with which it is compared, otherwise the one of its name.
 std::optional<size_t> placeOf(const std::string& copy, const Side& whole) {
@@ -49,30 +58,33 @@ std::optional<size_t> placeOf(const std::string& copy, const Side& whole) {
     return at == files.end() ? std::nullopt : std::optional<size_t>(at - files.begin());
   };
   std::error_code error;
-  if (!namesProject(whole.name))
-    return index([&](const std::string& file) { return fs::equivalent(file, whole.name, error); });
+  const std::string& named = whole.names[0];
+  if (whole.names.size() == 1 && !namesProject(named))
+    return index([&](const std::string& file) { return fs::equivalent(file, named, error); });
   if (files.size() == 1) return 0;
   return index([&](const std::string& file) { return fs::path(file).filename() == fs::path(copy).filename(); });
 }
 
-// A file without a project is a version of the file with which it is compared, and gets the rest of that project.
-// False: it is not known which file of the project it is.
+// Files without a project are versions of the files with which they are compared, and get the rest of that project.
+// False: it is not known which files of the project they are.
 bool completeCopy(Side& copy, const Side& whole) {
-  const std::optional<size_t> place = placeOf(copy.name, whole);
   const compiler::Project& project = *whole.options.project;
-  if (!place) {
-    fmt::print(stderr,
-               "rungc: {} is in no project, and {} has no file of this name: configuration and messages are not "
-               "compared\n",
-               copy.name, project.file);
-    return false;
+  std::vector<std::string> files = project.files;
+  for (const std::string& name : copy.names) {
+    const std::optional<size_t> place = placeOf(name, whole);
+    if (!place) {
+      fmt::print(stderr,
+                 "rungc: {} is in no project, and {} has no file of this name: configuration and messages are not "
+                 "compared\n",
+                 name, project.file);
+      return false;
+    }
+    fmt::print(stderr, "rungc: {} is in no project: it is compared in the place of {}, with all else of {}\n", name,
+               project.files[*place], project.file);
+    files[*place] = name;
   }
-  fmt::print(stderr, "rungc: {} is in no project: it is compared in the place of {}, with all else of {}\n", copy.name,
-             project.files[*place], project.file);
   copy.options = whole.options;
-  copy.options.files = project.files;
-  copy.options.files[*place] = copy.name;
-  copy.options.project->files = copy.options.files;
+  copy.options.files = copy.options.project->files = files;
   return true;
 }
 
@@ -141,8 +153,10 @@ std::set<std::string> controlNames(const frontend::Analysis& analysis) {
 
 int run(const DiffOptions& options) {
   Side before, after;
-  before.name = options.before;
-  after.name = options.after;
+  if (!takeNames(options, before, after))
+    return usageError(fmt::format("diff takes the older and the newer version, found {} name{}; if a version has "
+                                  "several files, write those of the newer one after --to",
+                                  options.files.size(), options.files.size() == 1 ? "" : "s"));
   int status = takeSide(before, options);
   if (status == kOk) status = takeSide(after, options);
   if (status != kOk) return status;
@@ -171,8 +185,13 @@ int run(const DiffOptions& options) {
 void addDiff(CommandLine& app, int& status) {
   Command command = app.add("diff", "Compare two versions of a program, by what their rungs do");
   auto options = std::make_shared<DiffOptions>();
-  command.option("OLD", options->before, "A source file, or the folder of a project").required();
-  command.option("NEW", options->after, "The newer version, in the same form").required();
+  command
+      .option("FILE", options->files,
+              "The older and the newer version, each a source file or the folder of a project; with --to all source "
+              "files of the older one")
+      .required();
+  command.option("--to", options->newer, "The source files of the newer version, or the folder of its project")
+      .manyValues();
   command.option("--dialect", options->common.dialect,
                  "fanuc, gsk, nct or technol; needed if the files do not name it");
   command.option("--config", options->common.config, "KEY=VALUE of the dialect's configuration; may be repeated")

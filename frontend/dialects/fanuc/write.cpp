@@ -9,6 +9,7 @@
 
 #include "frontend/dialects/fanuc/format.h"
 #include "frontend/dialects/fanuc/read/sections.h"
+#include "frontend/dialects/fanuc/read/symbols.h"
 
 namespace rung::frontend::fanuc {
 namespace {
@@ -28,12 +29,13 @@ std::string fieldOf(std::string_view text) {
 // Sections with their lines, in the order in which they were begun.
 class Sections {
 public:
-  void add(std::string_view code, std::string line) {
+  // An empty line only begins the section.
+  void add(std::string_view code, std::string_view line) {
     auto at = std::ranges::find(sections_, code, &std::pair<std::string, std::string>::first);
     if (at == sections_.end()) at = sections_.insert(sections_.end(), {std::string(code), {}});
-    at->second.append(line).push_back('\n');
+    if (!line.empty()) at->second.append(line).push_back('\n');
   }
-  // A section with its code and its end; "" if it has no lines. It is then taken.
+  // A section with its code and its end; "" if it was not begun. It is then taken.
   std::string take(std::string_view code) {
     const auto at = std::ranges::find(sections_, code, &std::pair<std::string, std::string>::first);
     if (at == sections_.end()) return {};
@@ -51,9 +53,28 @@ private:
   std::vector<std::pair<std::string, std::string>> sections_;
 };
 
-constexpr std::string_view kSymbols = "%@2-E (SYM=1 ADR=2 CM1=3)";
 constexpr std::string_view kLadder = "%@3";
 constexpr std::string_view kMessages = "%@4";
+
+// The code of the table of symbols with as many comments as a symbol has.
+std::string symbolsCode(size_t comments) {
+  std::string code = "%@2-E (SYM=1 ADR=2";
+  for (size_t number = 1; number <= comments; ++number) code += fmt::format(" CM{}={}", number, number + 2);
+  return code + ")";
+}
+
+size_t mostComments(std::span<const Item> declarations) {
+  size_t most = 1;
+  for (const Item& item : declarations)
+    if (item.kind == Item::Kind::Symbol) most = std::max(most, commentsIn(item.comment).size());
+  return most;
+}
+
+std::string symbolLine(const Item& symbol) {
+  std::string line = fmt::format("{},{}", fieldOf(symbol.text), fieldOf(symbol.value));
+  for (const std::string_view comment : commentsIn(symbol.comment)) line += fmt::format(",{}", fieldOf(comment));
+  return line;
+}
 
 } // namespace
 
@@ -73,9 +94,10 @@ std::string mnemonicCommand(const network::Language& language, const network::Wr
 
 std::string mnemonicFile(std::span<const Item> head, std::span<const Item> declarations, std::string_view ladder) {
   Sections sections;
+  const std::string symbols = symbolsCode(mostComments(declarations));
   for (const Item& item : declarations) {
     if (item.kind == Item::Kind::Symbol)
-      sections.add(kSymbols, fmt::format("{},{},{}", fieldOf(item.text), fieldOf(item.value), fieldOf(item.comment)));
+      sections.add(symbols, symbolLine(item));
     else if (item.kind == Item::Kind::Message)
       sections.add(kMessages, fmt::format("{} {}", item.text, item.value));
     else
@@ -87,7 +109,8 @@ std::string mnemonicFile(std::span<const Item> head, std::span<const Item> decla
       text += item.kind == Item::Kind::Section ? fmt::format("; section \"{}\"\n", item.text)
                                                : fmt::format("; {}\n", item.text);
   text += "%@A\n";
-  for (const std::string_view code : {kParametersCode, kTitleCode, kSymbols}) text += sections.take(code);
+  for (const std::string_view code : {kParametersCode, kTitleCode, std::string_view(symbols)})
+    text += sections.take(code);
   text += fmt::format("{}\n{}%\n{}", kLadder, ladder, sections.take(kMessages));
   return text + sections.takeAll() + "%@E\n";
 }

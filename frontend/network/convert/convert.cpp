@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "frontend/ladder/text/format.h"
 #include "frontend/network/convert/drawing.h"
 #include "frontend/network/convert/writers.h"
 #include "frontend/network/read/gaps.h"
@@ -84,6 +85,16 @@ bool checkDrawings(const Language& language, const SourceProgram& source, Diagno
   return !diagnostics.hasErrors();
 }
 
+// In the columns that `rungc format` chooses, which are fewer where rungs have groups in parallel at several pins.
+std::string formattedLadder(const Language& language, const SourceProgram& source) {
+  SourceManager sources;
+  Diagnostics heard; // stays without errors
+  const FileId file = sources.addBuffer("converted.lad", writeLadder(language, source));
+  const std::optional<std::string> text = ladder::format(sources, file, language.findBox, heard);
+  RUNG_CHECK(text.has_value(), "a converted program is ladder text");
+  return *text;
+}
+
 } // namespace
 
 std::optional<std::string> convertProgram(const Language& language, SourceManager& sources,
@@ -92,7 +103,7 @@ std::optional<std::string> convertProgram(const Language& language, SourceManage
   SourceProgram source = readSource(language, sources, files);
   if (!toList && !checkDrawings(language, source, diagnostics)) return std::nullopt;
   if (toList) prepareForList(language, source);
-  std::string text = toList ? writeList(language, source) : writeLadder(language, source);
+  std::string text = toList ? writeList(language, source) : formattedLadder(language, source);
   SourceManager converted;
   const std::string name = fmt::format("converted{}", toList ? language.listExtensions[0] : ".lad");
   readBack(language, converted, converted.addBuffer(name, text), source.program);

@@ -90,7 +90,8 @@ std::vector<std::string> Gaps::takeComments(Gap& network) {
     case Kind::Data: statements.push_back(std::move(item)); break;
     }
   }
-  network.insert(network.begin(), std::make_move_iterator(statements.begin()),
+  const auto isOther = [](const Item& item) { return !isDeclaration(item.kind) && item.kind != Kind::Dialect; };
+  network.insert(std::ranges::find_if(network, isOther), std::make_move_iterator(statements.begin()),
                  std::make_move_iterator(statements.end()));
   return comments;
 }

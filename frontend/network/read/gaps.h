@@ -34,8 +34,8 @@ public:
 
   // For a network or a unit.
   Gap take();
-  // Comments for a command within a network, whose gap receives the statements: they are put before everything in it,
-  // because after a title they would end the search for it.
+  // Comments for a command within a network, whose gap receives the statements: they are put after the statements with
+  // which it begins, because after a title they would end the search for it.
   std::vector<std::string> takeComments(Gap& network);
 
 private:

@@ -3,6 +3,7 @@
 #include <set>
 #include <sstream>
 
+#include "frontend/network/format.h"
 #include "frontend/network/read/list_reader.h"
 #include "tests/support/long_run.h"
 #include "tests/support/without_places.h"
@@ -62,9 +63,17 @@ std::string moduleOf(const std::string& name, const std::string& text) {
   return compiled->module ? frontend::test::withoutPlaces(*compiled->module) : "";
 }
 
+std::string formatted(const std::string& ladder) {
+  SourceManager sources;
+  Diagnostics diagnostics;
+  return frontend::network::format(kLanguage, sources, sources.addBuffer("test.lad", ladder), diagnostics)
+      .value_or("not formatted");
+}
+
 void checkThereAndBack(const std::string& list) {
   const std::string ladder = toLadder(list);
   ASSERT_FALSE(::testing::Test::HasFailure());
+  ASSERT_EQ(formatted(ladder), ladder);
   const std::string again = toList(ladder);
   ASSERT_EQ(commandsOf(again), commandsOf(list)) << ladder;
   ASSERT_EQ(commentsOf(again), commentsOf(list)) << list << "\n=====\n" << ladder << "\n=====\n" << again;
@@ -90,6 +99,11 @@ TEST(GskConvertProperty, LaddersThereAndBack) {
     ASSERT_TRUE(moduleOf("test.pmc", list) == moduleOf("test.lad", ladder)) << ladder << "\n=====\n" << list;
     checkThereAndBack(list);
   }
+}
+
+TEST(GskConvertProperty, SymbolsWithinANetworkStayInOrder) {
+  const std::string ladder = toLadder("FUNC 0\nLD X0.0\nsymbol B R5.0\nOR X0.1\nsymbol A R5.1\nOUT A\nFUNC 1\n");
+  EXPECT_NE(ladder.find("symbol B R5.0\nsymbol A R5.1\n"), std::string::npos) << ladder;
 }
 
 TEST(GskConvertProperty, AFormInItselfIsANormalForm) {

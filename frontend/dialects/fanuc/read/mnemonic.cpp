@@ -358,32 +358,42 @@ public:
           !text.empty() && !text.starts_with("%@"))
         context_.gaps.comment(text.substr(text.starts_with(';') ? 1 : 0));
   }
-  void section(const Section& section) const {
-    if (hasSymbols(section)) return symbols(section);
+  void section(const Section& section) {
     if (section.kind == Section::Kind::Outside) return outside(section);
-    const bool hasMessages = section.kind == Section::Kind::Messages;
-    eachLine(context_.sources, file_, section, [&](const SourceLine& line) {
-      const auto message = hasMessages ? messageIn(line) : std::nullopt;
-      if (message) return context_.gaps.declaration(Kind::Message, message->place, message->text, {});
-      const std::string_view text = text::trimmed(line.text);
-      if (text.empty()) return;
-      const auto at = static_cast<size_t>(text.data() - line.text.data());
-      context_.gaps.declaration(Kind::Data, {section.code, section.range, false},
-                                {text, line.range(at, at + text.size()), false}, {});
-    });
+    isEmpty_ = true;
+    hasSymbols(section) ? symbols(section) : lines(section);
+    // A section without lines is an empty line of it.
+    if (isEmpty_) context_.gaps.declaration(Kind::Data, nameOf(section), {"", section.range, true}, {});
   }
 
 private:
   using Kind = network::Item::Kind;
 
+  // The code without the columns of a table.
+  static Word nameOf(const Section& section) {
+    return {section.code.substr(0, section.code.find_first_of("( \t")), section.range, false};
+  }
+  void lines(const Section& section) {
+    const bool hasMessages = section.kind == Section::Kind::Messages;
+    eachLine(context_.sources, file_, section, [&](const SourceLine& line) {
+      const auto message = hasMessages ? messageIn(line) : std::nullopt;
+      const std::string_view text = text::trimmed(line.text);
+      if (text.empty()) return;
+      isEmpty_ = false;
+      if (message) return context_.gaps.declaration(Kind::Message, message->place, message->text, {});
+      const auto at = static_cast<size_t>(text.data() - line.text.data());
+      context_.gaps.declaration(Kind::Data, nameOf(section), {text, line.range(at, at + text.size()), false}, {});
+    });
+  }
   void outside(const Section& section) const {
     eachLine(context_.sources, file_, section,
              [&](const SourceLine& line) { context_.gaps.comment(text::trimmed(line.text)); });
   }
-  void symbols(const Section& section) const {
+  void symbols(const Section& section) {
     Diagnostics discarded; // reported when the symbols were declared
-    const SymbolSink sink{[&](const Word& name, const Word& place, std::string_view comment) {
-                            context_.gaps.declaration(Kind::Symbol, name, place, comment);
+    const SymbolSink sink{[&](const Word& name, const Word& place, const Comments& comments) {
+                            isEmpty_ = false;
+                            context_.gaps.declaration(Kind::Symbol, name, place, joined(comments));
                           },
                           [&](std::string_view text) { context_.gaps.comment(text); }};
     readSymbols(context_.sources, discarded, file_, section, sink);
@@ -391,20 +401,21 @@ private:
 
   Context& context_;
   FileId file_;
+  bool isEmpty_ = true; // the section so far
 };
 
 } // namespace
 
 void MnemonicFile::readDeclarations(Context& context) const {
   const SymbolSink sink{
-      [&](const Word& name, const Word& place, std::string_view comment) { addSymbol(context, name, place, comment); },
+      [&](const Word& name, const Word& place, const Comments& comments) { addSymbol(context, name, place, comments); },
       [](std::string_view) {}};
   for (const Section& section : sections_)
     if (hasSymbols(section)) readSymbols(context.sources, context.diagnostics, file(), section, sink);
 }
 
 void MnemonicFile::read(Context& context, network::UnitAssembler& units) const {
-  const SectionKeeper keeper(context, file());
+  SectionKeeper keeper(context, file());
   if (context.gaps.areKept() && !sections_.empty()) keeper.head(sections_.front());
   for (const Section& section : sections_) {
     if (section.kind == Section::Kind::Unknown)

@@ -41,6 +41,6 @@ inline constexpr network::ListForm kMnemonicForm = {.open = &openMnemonic,
                                                     .commentColumn = kCommentColumn,
                                                     .blockComments = true,
                                                     .frame = &mnemonicFile,
-                                                    .addSymbol = &addSymbol};
+                                                    .addSymbol = &addDrawnSymbol};
 
 } // namespace rung::frontend::fanuc

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "frontend/network/address.h"
 #include "ir/support/diag/pmc.h"
@@ -62,18 +63,20 @@ public:
     line_ = line;
   }
   void flush() {
-    if (!symbol_.empty()) sink_.symbol(wordOf(line_, symbol_), wordOf(line_, place_), comment_);
-    symbol_ = comment_ = {};
+    if (!symbol_.empty()) sink_.symbol(wordOf(line_, symbol_), wordOf(line_, place_), comments_);
+    symbol_ = {};
+    comments_.clear();
   }
 
 private:
-  // The first comment that is not empty, in single quotes.
+  // Comments in single quotes; empty ones do not count.
   void comment(std::string_view text) {
-    while (comment_.empty()) {
+    while (true) {
       const size_t open = text.find('\'');
       const size_t close = open == std::string_view::npos ? open : text.find('\'', open + 1);
       if (close == std::string_view::npos) return;
-      comment_ = text::trimmed(text.substr(open + 1, close - open - 1));
+      const std::string_view comment = text::trimmed(text.substr(open + 1, close - open - 1));
+      if (!comment.empty()) comments_.push_back(comment);
       text.remove_prefix(close + 1);
     }
   }
@@ -81,12 +84,14 @@ private:
   Diagnostics& diagnostics_;
   const SymbolSink& sink_;
   SourceLine line_;
-  std::string_view place_, symbol_, comment_;
+  std::string_view place_, symbol_;
+  Comments comments_;
 };
 
-// The columns of a table, from its code: `(SYM=1 ADR=2 CM1=3)`; the numbers count from 1.
+// The columns of a table, from its code: `(SYM=1 ADR=2 CM1=3 CM2=4)`; the numbers count from 1, 0: there is none.
 struct Columns {
-  size_t symbol = 1, address = 2, comment = 3;
+  size_t symbol = 1, address = 2;
+  std::vector<size_t> comments;
 };
 
 size_t columnNamed(std::string_view code, std::string_view name, size_t otherwise) {
@@ -95,6 +100,15 @@ size_t columnNamed(std::string_view code, std::string_view name, size_t otherwis
   const std::string_view digits = code.substr(at + name.size());
   const auto number = network::parseDigits(digits.substr(0, digits.find_first_not_of("0123456789")));
   return number ? static_cast<size_t>(*number) : otherwise;
+}
+
+Columns columnsOf(std::string_view code) {
+  constexpr int kMostComments = 16; // LADDER-III has a comment for each language of the control, at most
+  const std::string upper = text::upper(code);
+  Columns columns{columnNamed(upper, "SYM=", 1), columnNamed(upper, "ADR=", 2), {columnNamed(upper, "CM1=", 3)}};
+  for (int number = 2; number <= kMostComments; ++number)
+    columns.comments.push_back(columnNamed(upper, fmt::format("CM{}=", number), 0));
+  return columns;
 }
 
 // The fields of a line, without the quotes of those that have them. (A quote inside a field is not known to be
@@ -122,24 +136,45 @@ void tableLine(const Columns& columns, const SourceLine& line, const SymbolSink&
     return column == 0 || column > fields.size() ? std::string_view() : fields[column - 1];
   };
   if (field(columns.symbol).empty() || field(columns.address).empty()) return; // a comment without the other one
-  sink.symbol(wordOf(line, field(columns.symbol)), wordOf(line, field(columns.address)), field(columns.comment));
+  Comments comments;
+  for (const size_t column : columns.comments) comments.push_back(field(column));
+  while (!comments.empty() && comments.back().empty()) comments.pop_back();
+  sink.symbol(wordOf(line, field(columns.symbol)), wordOf(line, field(columns.address)), comments);
 }
 
 } // namespace
 
-void addSymbol(Context& context, const Word& name, const Word& place, std::string_view comment) {
-  UserName symbol{.name = name.text, .declared = name.range, .comment = comment};
+std::string joined(const Comments& comments) {
+  return fmt::format("{}", fmt::join(comments, fmt::format(" {} ", kNextComment)));
+}
+
+Comments commentsIn(std::string_view joined) {
+  Comments comments;
+  while (true) {
+    const size_t end = joined.find(kNextComment);
+    comments.push_back(text::trimmed(joined.substr(0, end)));
+    if (end == std::string_view::npos) return comments;
+    joined.remove_prefix(end + kNextComment.size());
+  }
+}
+
+void addSymbol(Context& context, const Word& name, const Word& place, const Comments& comments) {
+  const auto first = std::ranges::find_if(comments, [](std::string_view comment) { return !comment.empty(); });
+  UserName symbol{.name = name.text, .declared = name.range, .comment = first == comments.end() ? "" : *first};
   if (readPlace(context, place.text, symbol))
     context.names.addListed(context.diagnostics, std::move(symbol));
   else
     context.diagnostics.report(diag::BadListedSymbol, place.range) << place.text << "the address of a symbol";
 }
 
+void addDrawnSymbol(Context& context, const Word& name, const Word& place, std::string_view comment) {
+  addSymbol(context, name, place, commentsIn(comment));
+}
+
 void readSymbols(const SourceManager& sources, Diagnostics& diagnostics, FileId file, const Section& section,
                  const SymbolSink& sink) {
   if (section.kind == Section::Kind::SymbolTable) {
-    const std::string code = text::upper(section.code);
-    const Columns columns{columnNamed(code, "SYM=", 1), columnNamed(code, "ADR=", 2), columnNamed(code, "CM1=", 3)};
+    const Columns columns = columnsOf(section.code);
     return eachLine(sources, file, section, [&](const SourceLine& line) { tableLine(columns, line, sink); });
   }
   PlainReader reader(diagnostics, sink);

@@ -62,7 +62,8 @@ inline constexpr Row kTimingRows[] = {
         counterShape({number("number", 1, 100)}, Row::Numbers::Counter), 6, "CTR",
         "ring counter, preset on its page (ctr.N)", "5.7, l.1271",
         "Counts rising edges of ACT. Up: from the start value (CN0) to the preset, the next pulse begins again. Down: "
-        "from the preset to CN0 (P26). RST=1 sets the start value and OUT=0. OUT=1 when a count arrives at the end of "
+        "from the preset to CN0 (P26). RST=1 sets the start value (down: the preset) and OUT=0. OUT=1 when a count "
+        "arrives at the end of "
         "its way. Preset and value lie in C, two bytes each from C(4(n-1)), and are kept through power-off (P8).",
         "LD R0.0\nLD R0.1\nLD R0.2\nLD X9.0\nFUNC 6\nPRM 1\nOUT Y9.0", kCounterPage),
     rowOf(counterShape({in("preset", kinds::kWord, "0-32767"),

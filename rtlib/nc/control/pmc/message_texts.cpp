@@ -7,9 +7,6 @@
 namespace rung::nc {
 namespace {
 
-// FANUC: the text in another language lies this many A bits further, as the word K918 says.
-constexpr uint32_t kShiftAt = 918;
-
 // The number at the beginning of a text of FANUC's list, "1000 DOOR OPEN".
 uint32_t numberOf(std::string_view text) {
   return text::numberIn<uint32_t>(text.substr(0, text.find(' '))).value_or(0);
@@ -47,9 +44,16 @@ PmcMessages::Places::Places(const rung_program& of, pmc::MessageRule rule)
 }
 
 void PmcMessages::Places::findStates(const rung_space& space) {
-  for (const rung_range& range : std::span(space.ranges, space.range_count))
-    for (uint32_t byte = range.first_byte; byte < range.first_byte + range.byte_count; ++byte)
-      if (byte >= kFirstState && byte - kFirstState < kMostBytes) states.push_back(byte - kFirstState);
+  for (const rung_range& range : std::span(space.ranges, space.range_count)) {
+    const uint32_t first = std::max(range.first_byte, kFirstState);
+    const uint32_t end = std::min(range.first_byte + range.byte_count, kFirstState + kMostBytes);
+    if (first >= end) continue;
+    const bool expanded = range.repr == RUNG_REPR_BYTE_PER_BIT;
+    states.push_back({.first = first - kFirstState,
+                      .count = end - first,
+                      .offset = range.offset + (first - range.first_byte) * (expanded ? 8 : 1),
+                      .expanded = expanded});
+  }
 }
 
 void PmcMessages::Places::readTexts(const rung_program& of) {
@@ -65,7 +69,7 @@ void PmcMessages::Places::readTexts(const rung_program& of) {
 
 void PmcMessages::powerOn() {
   reported_.fill(0);
-  hasSeen_ = false;
+  for (Look* look : {&allReported_, &stated_, &states_}) look->forget();
 }
 
 void PmcMessages::use(uint8_t* block, const Places& places) noexcept {
@@ -76,18 +80,10 @@ void PmcMessages::use(uint8_t* block, const Places& places) noexcept {
       key = 0;
   }
   places_ = &places;
-  hasSeen_ = false;
+  for (Look* look : {&allReported_, &stated_, &states_}) look->forget();
   const uint8_t* written = places.written.data();
   for (const Piece& piece : places.pieces)
     for (uint32_t i = 0; i < piece.size(); ++i) block[piece.offset + i] &= *written++;
-}
-
-PmcMessages::Showing PmcMessages::showing(const runtime::Instance& instance) const noexcept {
-  Showing now{.display = !isListed()};
-  if (places_->display != RUNG_NONE) now.display = instance.memory().readByte(places_->display, 0) != 0;
-  if (places_->shift != RUNG_NONE)
-    now.shift = static_cast<uint32_t>(instance.memory().read(places_->shift, kShiftAt, 2));
-  return now;
 }
 
 PmcMessages::Known PmcMessages::known(uint32_t bit, uint32_t shift) const noexcept {

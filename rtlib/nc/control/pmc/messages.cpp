@@ -3,24 +3,14 @@
 
 namespace rung::nc {
 
-bool PmcMessages::isAsSeen(const uint8_t* block, const Showing& showing) const noexcept {
-  if (!hasSeen_ || showing != seenShowing_) return false;
-  const uint8_t* seen = seen_.data();
-  for (const Piece& piece : places_->pieces) {
-    if (std::memcmp(block + piece.offset, seen, piece.size()) != 0) return false;
-    seen += piece.size();
+void PmcMessages::Look::take(const uint8_t* block, std::span<const Piece> pieces, const Showing& showing) noexcept {
+  uint8_t* bytes = bytes_.data();
+  for (const Piece& piece : pieces) {
+    std::memcpy(bytes, block + piece.offset, piece.size());
+    bytes += piece.size();
   }
-  return true;
-}
-
-void PmcMessages::see(const uint8_t* block, const Showing& showing) noexcept {
-  uint8_t* seen = seen_.data();
-  for (const Piece& piece : places_->pieces) {
-    std::memcpy(seen, block + piece.offset, piece.size());
-    seen += piece.size();
-  }
-  hasSeen_ = true;
-  seenShowing_ = showing;
+  has_ = true;
+  showing_ = showing;
 }
 
 uint8_t PmcMessages::bitsOf(const runtime::Instance& instance, const Showing& showing, uint32_t byte) const noexcept {
@@ -28,7 +18,7 @@ uint8_t PmcMessages::bitsOf(const runtime::Instance& instance, const Showing& sh
 }
 
 // A message that continues ends, too, if another program or another language gives it another number or text.
-bool PmcMessages::nextChange(const runtime::Instance& instance, const Showing& showing, bool begins,
+bool PmcMessages::findChange(const runtime::Instance& instance, const Showing& showing, bool begins,
                              rung_message& message) noexcept {
   for (uint32_t byte = 0; byte < kMostBytes; ++byte) {
     if (!begins && reported_[byte] == 0) continue;
@@ -50,25 +40,39 @@ bool PmcMessages::nextChange(const runtime::Instance& instance, const Showing& s
   return false;
 }
 
-// Ends come first: the number of a message that ends may be that of one that begins.
 bool PmcMessages::nextChange(const runtime::Instance& instance, rung_message& message) noexcept {
   if (places_ == nullptr) return false;
   const Showing now = showing(instance);
-  if (isAsSeen(instance.block().data(), now)) return false;
-  if (nextChange(instance, now, false, message) || nextChange(instance, now, true, message)) return true;
-  see(instance.block().data(), now);
+  if (allReported_.isSame(instance.block().data(), places_->pieces, now)) return false;
+  return findChange(instance, now, message);
+}
+
+// Ends come first: the number of a message that ends may be that of one that begins.
+bool PmcMessages::findChange(const runtime::Instance& instance, const Showing& showing,
+                             rung_message& message) noexcept {
+  if (findChange(instance, showing, false, message) || findChange(instance, showing, true, message)) return true;
+  allReported_.take(instance.block().data(), places_->pieces, showing);
   return false;
 }
 
-void PmcMessages::writeStates(const runtime::Instance& instance) const noexcept {
+void PmcMessages::writeStates(const runtime::Instance& instance) noexcept {
   if (places_ == nullptr || places_->states.empty()) return;
+  const uint8_t* block = instance.block().data();
   const Showing now = showing(instance);
-  for (const uint32_t byte : places_->states) {
-    uint8_t shown = bitsOf(instance, now, byte);
-    for (uint32_t bit = 0; bit < 8; ++bit)
-      if (known(8 * byte + bit + 1, now.shift).number == 0) shown = static_cast<uint8_t>(shown & ~(1u << bit));
-    instance.memory().writeByte(places_->area, kFirstState + byte, shown);
+  if (stated_.isSame(block, places_->pieces, now) && states_.isSame(block, places_->states, now)) return;
+  for (const Piece& piece : places_->states) {
+    for (uint32_t byte = piece.first; byte < piece.first + piece.count; ++byte) {
+      const uint8_t requested = bitsOf(instance, now, byte);
+      uint8_t shown = requested;
+      for (uint32_t left = requested; left != 0; left &= left - 1) {
+        const auto bit = static_cast<uint32_t>(std::countr_zero(left));
+        if (known(8 * byte + bit + 1, now.shift).number == 0) shown = static_cast<uint8_t>(shown & ~(1u << bit));
+      }
+      instance.memory().writeByte(places_->area, kFirstState + byte, shown);
+    }
   }
+  stated_.take(block, places_->pieces, now);
+  states_.take(block, places_->states, now);
 }
 
 bool PmcMessages::shows(const runtime::Instance& instance, std::span<const ShownMessage> these) const noexcept {

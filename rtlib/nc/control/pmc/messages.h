@@ -42,7 +42,7 @@ public:
     std::vector<uint32_t> numbers; // of texts, by the text's number in the program's table - 1; 0: there is none
     uint32_t display = RUNG_NONE;  // @DISPB
     uint32_t shift = RUNG_NONE;    // K, if it has the message shift
-    std::vector<uint32_t> states;  // the bytes of the A area whose state the program reads
+    std::vector<Piece> states;     // the bytes of the A area whose state the program reads
 
   private:
     void readTexts(const rung_program& of);
@@ -57,7 +57,7 @@ public:
   void use(uint8_t* block, const Places& places) noexcept;
 
   // By a text list only: the bits of A from byte kFirstState on say which messages are shown.
-  void writeStates(const runtime::Instance& instance) const noexcept;
+  void writeStates(const runtime::Instance& instance) noexcept;
 
   // As in Control.
   bool shows(const runtime::Instance& instance, std::span<const ShownMessage> these) const noexcept;
@@ -71,6 +71,8 @@ public:
 
 private:
   static constexpr uint32_t kFirstState = 9000;
+  // FANUC: the text in another language lies this many A bits further, as the word K918 says.
+  static constexpr uint32_t kShiftAt = 918;
   // FANUC's kinds of messages by number: alarms, operator messages, and from kFirstPlain on those without a number.
   static constexpr uint32_t kFirstAlarm = 1000, kFirstMessage = 2000, kFirstPlain = 2100;
   static bool isAlarm(uint32_t number) { return number >= kFirstAlarm && number < kFirstMessage; }
@@ -82,7 +84,13 @@ private:
     uint32_t shift = 0;
     bool operator==(const Showing&) const = default;
   };
-  Showing showing(const runtime::Instance& instance) const noexcept;
+  Showing showing(const runtime::Instance& instance) const noexcept {
+    const core::Memory memory = instance.memory();
+    Showing now{.display = !isListed()};
+    if (places_->display != RUNG_NONE) now.display = memory.readByte(places_->display, 0) != 0;
+    if (places_->shift != RUNG_NONE) now.shift = static_cast<uint32_t>(memory.read(places_->shift, kShiftAt, 2));
+    return now;
+  }
   // The number and the key of an A bit's text, from 1; the number is 0 for a bit without a text. `key` is the number of
   // the text in the program's table.
   struct Known {
@@ -91,6 +99,35 @@ private:
   };
   Known known(uint32_t bit, uint32_t shift) const noexcept;
 
+  // What messages and their states depend on, at some time: there is hardly ever something new.
+  class Look {
+  public:
+    void forget() noexcept { has_ = false; }
+    // Whether nothing has changed.
+    bool isSame(const uint8_t* block, std::span<const Piece> pieces, const Showing& showing) const noexcept {
+      if (!has_ || showing != showing_) return false;
+      const uint8_t* bytes = bytes_.data();
+      for (const Piece& piece : pieces) {
+        if (std::memcmp(block + piece.offset, bytes, piece.size()) != 0) return false;
+        bytes += piece.size();
+      }
+      return true;
+    }
+    void take(const uint8_t* block, std::span<const Piece> pieces, const Showing& showing) noexcept;
+
+  private:
+    std::array<uint8_t, size_t{8} * kMostBytes> bytes_{}; // of the pieces
+    bool has_ = false;
+    Showing showing_;
+  };
+
+  // As nextChange, which only looks whether there is something new; the second one only messages that begin, or end.
+  bool findChange(const runtime::Instance& instance, const Showing& showing, rung_message& message) noexcept;
+  bool findChange(const runtime::Instance& instance, const Showing& showing, bool begins,
+                  rung_message& message) noexcept;
+  // A byte of the A area, or 0 if nothing is shown.
+  uint8_t bitsOf(const runtime::Instance& instance, const Showing& showing, uint32_t byte) const noexcept;
+
   // Calls see(number) for each A bit that is 1, from 1, in order, until it returns false; returns whether it never did.
   template <class See>
   bool forRequested(const uint8_t* block, See see) const;
@@ -98,24 +135,18 @@ private:
   template <class See>
   bool forShown(const runtime::Instance& instance, See see) const;
 
-  // Whether the bytes of the A area and `showing` are those of the last call of `see`, so that no message has changed.
-  bool isAsSeen(const uint8_t* block, const Showing& showing) const noexcept;
-  void see(const uint8_t* block, const Showing& showing) noexcept;
-  // The next message that ends or begins for the host; false: there is none.
-  bool nextChange(const runtime::Instance& instance, const Showing& showing, bool begins,
-                  rung_message& message) noexcept;
-  // A byte of the A area, or 0 if nothing is shown.
-  uint8_t bitsOf(const runtime::Instance& instance, const Showing& showing, uint32_t byte) const noexcept;
-
   pmc::MessageRule rule_;
   const Places* places_ = nullptr; // of the program that runs now
   // Bits whose messages have been reported to the host as shown, and as what; a key of 0 is a text that the program no
   // longer has.
   std::array<uint8_t, kMostBytes> reported_{};
   std::array<Known, size_t{8} * kMostBytes> reportedAs_{};
-  std::array<uint8_t, size_t{8} * kMostBytes> seen_{}; // bytes of the pieces at the last `see`
-  bool hasSeen_ = false;
-  Showing seenShowing_; // at the last `see`
+  Look allReported_;     // when all changes had been reported
+  Look stated_, states_; // when the states were written: the messages, and the states
+}; // bits of messages as reported to the host
+Look reported_;        // when all changes had been reported
+Look stated_, states_; // when the states were written: the messages, and the states
+uint32_t statedShift_ = 0;
 };
 
 // Nearly all bits are 0, so eight bytes of the block are tested at once.

@@ -273,9 +273,7 @@ public:
     }
     program_ = dialect_->check(sources_, *files, compile_, diagnostics_);
     if (!diagnostics_.hasErrors()) module_ = program_->build();
-    if (module_ == nullptr) return true;
-    reference_.emplace(*module_, dialect_->shownSpaces);
-    reference_->get().addConstantBits(sources_, analysis());
+    if (module_ != nullptr) reference_.emplace(*module_, dialect_->shownSpaces);
     return true;
   }
   const SourceManager& sources() const { return sources_; }

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <memory>
 
+#include "compiler/dialect_choice.h"
 #include "compiler/reference.h"
 #include "frontend/ladder/text/keywords.h"
 #include "frontend/syntax/word_lexer.h"

@@ -9,6 +9,7 @@
 #include "compiler/compile.h"
 #include "compiler/configuration.h"
 #include "compiler/contained.h"
+#include "compiler/dialect_choice.h"
 #include "compiler/embedded_ir.h"
 #include "compiler/engines.h"
 #include "ir/support/diag_render.h"

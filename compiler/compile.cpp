@@ -4,28 +4,21 @@
 #include <algorithm>
 #include <filesystem>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <iostream>
 #include <iterator>
+#include <set>
+#include <string>
 
-#include "frontend/ladder/text/ladder_file.h"
-#include "frontend/ladder/text/list_word.h"
+#include "compiler/dialect_choice.h"
 #include "ir/support/check.h"
-#include "ir/support/diag/ladder.h"
 #include "ir/support/diag/source.h"
 #include "ir/support/encoding.h"
-#include "ir/support/foreign_file.h"
-#include "ir/support/meant.h"
-#include "ir/support/pmc_address.h"
 #include "ir/text/text.h"
 #include "ir/transforms/passes.h"
 #include "ir/verify/verify.h"
-#include "rtlib/text/letters.h"
 
 namespace rung::compiler {
 namespace {
-
-constexpr std::string_view kElfMagic = "\177ELF";
 
 // An invalid module is an error of the compiler, never of the user's program.
 void checkModule(const ir::Module& module, ir::Mode mode) {
@@ -41,60 +34,6 @@ void addClaim(ir::Module& module, const LayoutClaim& claim) {
                             .value = claim.hash});
 }
 
-// `word` must be part of the file's text.
-void reportUnknownDialect(const SourceManager& sources, FileId file, std::string_view word, Diagnostics& diagnostics) {
-  const auto begin = static_cast<size_t>(word.data() - sources.text(file).data());
-  const SourceRange range = sources.range(file, begin, begin + word.size());
-  DiagBuilder report = diagnostics.report(diag::UnknownDialect, range);
-  report << word;
-  // such as nct2xx, GSK25iMc
-  for (const frontend::Dialect* dialect : frontend::allDialects())
-    if (text::startsWithIgnoringCase(word, dialect->name)) return static_cast<void>(report.meant(range, dialect->name));
-  suggest(report, range, text::likeliest(word, frontend::allDialects(), &frontend::Dialect::name));
-}
-
-constexpr std::string_view kFanucList = "it is a command list of a FANUC control: name it .mne, or say --dialect fanuc";
-constexpr std::string_view kGskList = "it is a command list of a GSK control: name it .pmc, or say --dialect gsk";
-
-// What a line of a command list says about the control; "" for any other line. Addresses of other controls do not begin
-// with the letter of an area.
-std::string_view listOf(std::span<const frontend::Word> words) {
-  if (words.size() < 2 || words[0].quoted) return {};
-  if (text::equalsIgnoringCase(words[0].text, "RD") || text::equalsIgnoringCase(words[0].text, "RD.NOT"))
-    return kFanucList;
-  const bool loads = text::equalsIgnoringCase(words[0].text, "LD") || text::equalsIgnoringCase(words[0].text, "LDI");
-  return loads && pmcAddress(words[1].text) ? kGskList : std::string_view();
-}
-
-// Of the first line that says it; most begin with comments, or with the number of a network.
-std::string_view listOf(const SourceManager& sources, FileId file) {
-  frontend::LineReader lines(sources, file);
-  frontend::LineWords words;
-  for (frontend::SourceLine line; lines.next(line);) {
-    splitWords(line, {}, words);
-    if (const std::string_view list = listOf(words.words); !list.empty()) return list;
-  }
-  return {};
-}
-
-void reportNoDialect(const SourceManager& sources, FileId file, Diagnostics& diagnostics) {
-  DiagBuilder report = diagnostics.report(diag::MissingDialect, sources.range(file, 0, 0));
-  frontend::LineReader lines(sources, file);
-  frontend::LineWords words;
-  for (frontend::SourceLine line; words.words.empty() && lines.next(line);) splitWords(line, {}, words);
-  if (isMnemonicFile(sources.text(file)))
-    report.note("it is a mnemonic file of a FANUC control: name it .mne, or say --dialect fanuc");
-  else if (const std::string_view list = listOf(sources, file); !list.empty())
-    report.note(list);
-  else if (frontend::ladder::isListLine(words.words))
-    report.note(frontend::ladder::kListNote);
-  const std::string extension = std::filesystem::path(sources.name(file)).extension().string();
-  const std::vector<std::string_view> programs = frontend::programExtensions();
-  if (extension.empty() || std::ranges::find(programs, extension) != programs.end()) return;
-  report.note(fmt::format("the file is not one of a program by its name; those have the extensions {}",
-                          fmt::join(programs, ", ")));
-}
-
 bool checkEncodingKey(const frontend::CompileOptions& options, Diagnostics& diagnostics) {
   const std::string key(nc::kEncodingKey.key);
   const auto encoding = options.config.find(key);
@@ -103,31 +42,27 @@ bool checkEncodingKey(const frontend::CompileOptions& options, Diagnostics& diag
   return false;
 }
 
-} // namespace
-
-const frontend::Dialect* chooseDialect(const SourceManager& sources, std::span<const FileId> files,
-                                       const std::string& name, Diagnostics& diagnostics) {
-  for (const FileId file : files)
-    if (sources.text(file).starts_with(kElfMagic)) {
-      diagnostics.report(diag::CompiledProgram, SourceRange{}) << sources.name(file);
-      return nullptr;
-    }
-  const SourceRange start = sources.range(files[0], 0, 0);
-  if (!name.empty()) {
-    const frontend::Dialect* named = frontend::findDialect(name);
-    if (named == nullptr) diagnostics.report(diag::UnknownDialect, start) << name;
-    return named;
+// Its declarations would be there twice; engines, too, know files by their names.
+bool checkNamedOnce(const SourceManager& sources, std::span<const FileId> files, Diagnostics& diagnostics) {
+  std::set<std::string> named;
+  for (const FileId file : files) {
+    const std::string name = std::filesystem::path(sources.name(file)).lexically_normal().string();
+    if (named.insert(name).second) continue;
+    diagnostics.report(diag::FileTwice, SourceRange{}) << sources.name(file);
+    return false;
   }
-  const frontend::Dialect* found = frontend::dialectOf(sources, files[0]);
-  if (found != nullptr) return found;
-  if (const std::string_view unknown = frontend::ladder::peekDialect(sources, files[0]); !unknown.empty())
-    reportUnknownDialect(sources, files[0], unknown, diagnostics);
-  else if (const std::optional<std::string> foreign = foreignFile(sources.text(files[0])))
-    diagnostics.report(diag::ForeignFile, SourceRange{}) << sources.name(files[0]) << *foreign;
-  else if (frontend::checkEncoding(sources, files[0], diagnostics))
-    reportNoDialect(sources, files[0], diagnostics);
-  return nullptr;
+  return true;
 }
+
+void reportCutTexts(const SourceManager& sources, std::span<const FileId> files, Diagnostics& diagnostics) {
+  for (const FileId file : files)
+    if (const size_t left = sources.textAfterEnd(file); left != 0)
+      diagnostics.report(diag::IncompleteFile,
+                         sources.range(file, sources.text(file).size(), sources.text(file).size()))
+          << fmt::format("a Ctrl-Z ends the text here, and {} bytes after it are left out", left);
+}
+
+} // namespace
 
 Result<std::vector<FileId>> addFiles(SourceManager& sources, const std::vector<std::string>& names,
                                      const std::map<std::string, std::string>& config) {
@@ -151,7 +86,9 @@ std::optional<Compiled> compile(SourceManager& sources, std::span<const FileId> 
   Compiled out;
   out.files.assign(files.begin(), files.end());
   out.dialect = chooseDialect(sources, files, request.dialect, diagnostics);
-  if (out.dialect == nullptr || !checkEncodingKey(request.options, diagnostics)) return std::nullopt;
+  if (out.dialect == nullptr || !checkNamedOnce(sources, files, diagnostics)) return std::nullopt;
+  if (!checkEncodingKey(request.options, diagnostics)) return std::nullopt;
+  reportCutTexts(sources, files, diagnostics);
   out.project = request.name;
   out.options = request.options;
   frontend::CompileOptions options = request.options;

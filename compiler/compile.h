@@ -67,11 +67,6 @@ struct Compiled {
 Result<std::vector<FileId>> addFiles(SourceManager& sources, const std::vector<std::string>& names,
                                      const std::map<std::string, std::string>& config);
 
-// The dialect of a program: the named one, or with an empty name that of the first file. Null if it cannot be
-// determined, or if one of the files is a compiled program; that is reported.
-const frontend::Dialect* chooseDialect(const SourceManager& sources, std::span<const FileId> files,
-                                       const std::string& name, Diagnostics& diagnostics);
-
 // Nothing if the program has errors; they are in `diagnostics`.
 std::optional<Compiled> compile(SourceManager& sources, std::span<const FileId> files, const CompileRequest& request,
                                 Diagnostics& diagnostics);

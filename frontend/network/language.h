@@ -72,6 +72,7 @@ struct Row {
   // Reports what is wrong although the kinds and ranges of the operands are right; may be null.
   void (*check)(Context& context, const Network& network) = nullptr;
   int8_t direction = -1; // the condition that is 0 to read a table and 1 to write it; what is read may be an input
+  int8_t wide = 0;       // of a row with BCD numbers: the condition that is 0 for one byte and 1 for two
 };
 
 // The statements of a list (P12). Declarations are allowed in lists as in ladder text, for conversions.

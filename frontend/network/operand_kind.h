@@ -18,6 +18,8 @@ enum class Length : uint8_t {
   OfCount,    // as many bytes as the format counts
   OfNumber,
   OfRow,
+  OfDigits,     // 2 bytes, or 1 if the row's condition Row::wide is 0
+  OfDigitTable, // as many times that as the number says
 };
 
 struct OperandTraits {

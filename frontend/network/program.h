@@ -81,7 +81,8 @@ struct Param {
   bool bad = false; // an error was reported
   Address address;
   uint32_t bytes = 1; // from the address on; for a data table everything that could belong to it
-  int64_t value = 0;  // constant, number, mask, label, subprogram, format as a00n
+  frontend::Access access = frontend::Access::None; // of the address
+  int64_t value = 0;                                // constant, number, mask, label, subprogram, format as a00n
   SourceRange range;
 };
 

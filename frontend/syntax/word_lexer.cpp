@@ -142,9 +142,7 @@ void reportBadCharacter(std::string_view text, size_t offset, SourcePos begin, D
   DiagBuilder report = diagnostics.report(diag::BadCharacter, {{at}, {at + character.length}});
   report << name;
   if (character.valid && character.value >= 0xC0 && asciiFor(character.value) == '\0')
-    report.note(
-        "outside comments and quoted texts a program is ASCII: names have the letters A to Z and a to z, digits "
-        "and _");
+    report.note("outside comments and quoted texts a program is ASCII, its names too");
   noteLookAlike(text, offset, begin, report);
 }
 

@@ -130,6 +130,10 @@ Uses::RungFacts Uses::factsOf(const Module& module, const Rung& rung) {
   RungFacts facts;
   OnceEach uses(facts.uses);
   const KeptLoads kept(rung);
+  for (const auto& [space, bit] : rung.constantBits) {
+    const BitRange place{space, bit, 1};
+    uses.add({{.place = place, .type = Type::Bit}, place});
+  }
   std::vector<const Op*> definitions(rung.values.size(), nullptr);
   for (const Op& op : rung.ops) {
     if (op.resultCount == 1) definitions[op.result.index] = &op;

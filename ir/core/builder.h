@@ -41,6 +41,11 @@ public:
   void setLine(uint32_t line) { line_ = line; }
 
   ValueId constant(Type type, int64_t value);
+  // The value of a bit that never changes, as a use of it (Rung::constantBits).
+  ValueId constantBit(const Place& place, bool value) {
+    rung_.constantBits.push_back({place.space, place.byte * 8 + place.bit});
+    return bit(value);
+  }
   ValueId bit(bool value) { return constant(Type::Bit, value ? 1 : 0); }
   ValueId i32(int64_t value) { return constant(Type::I32, value); }
   ValueId real(double value);

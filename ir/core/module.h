@@ -64,6 +64,13 @@ struct Origin {
   bool operator==(const Origin&) const = default;
 };
 
+// A bit of a space, counted from its beginning.
+struct SpaceBit {
+  SpaceId space;
+  uint32_t bit = 0;
+  bool operator==(const SpaceBit&) const = default;
+};
+
 struct Rung {
   uint32_t number = 0;    // as drawn: from 1, over all files in their order; 0: made by the compiler
   std::string title;      // the rung's comment
@@ -73,6 +80,8 @@ struct Rung {
   uint64_t key = 0;    // stable while the rung's text is unchanged (rungKey in rung/types.hpp)
   uint32_t copy = 0;   // number of earlier rungs in its routine with the same text: part of the key
   uint32_t weight = 1; // in steps, as the dialect counts them
+  // Bits that never change. The rung reads them, but its code has their value and no operation.
+  std::vector<SpaceBit> constantBits;
   std::vector<Op> ops;
   std::vector<ValueId> args; // operands of all ops
   std::vector<Type> values;  // type of each value

@@ -170,7 +170,8 @@ private:
 
 std::string renderText(const Diagnostics& diagnostics, const SourceManager& sources, RenderOptions options) {
   TextRenderer renderer(sources, options);
-  for (const Diagnostic* d : diagnostics.sorted()) renderer.diagnostic(*d);
+  for (const Diagnostic* d : diagnostics.sorted())
+    if (options.warnings || d->severity == Severity::Error) renderer.diagnostic(*d);
   renderer.dropped(diagnostics.droppedCount());
   return renderer.take();
 }

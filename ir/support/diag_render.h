@@ -11,6 +11,8 @@ struct RenderOptions {
   bool color = false;
   /// Source lines are shortened to about this many characters around the error.
   size_t width = 100;
+  /// Otherwise only errors.
+  bool warnings = true;
 };
 
 /// For each diagnostic "file:line:column: error: message [code]", the source line with the range underlined, labels,

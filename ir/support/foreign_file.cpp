@@ -203,7 +203,14 @@ std::optional<ControlFile> controlFileOf(std::string_view text) {
 
 bool isMnemonicFile(std::string_view text) { return hasSections(linesOf(text.substr(0, kLooked))); }
 
-bool isBinary(std::string_view bytes) { return std::ranges::any_of(firstText(bytes.substr(0, kLooked)), isOfBinary); }
+size_t firstBinary(std::string_view text) {
+  const auto found = std::ranges::find_if(text, isOfBinary);
+  return found == text.end() ? std::string_view::npos : static_cast<size_t>(found - text.begin());
+}
+
+bool isBinary(std::string_view bytes) {
+  return firstBinary(firstText(bytes.substr(0, kLooked))) != std::string_view::npos;
+}
 
 std::optional<std::string> foreignFile(std::string_view bytes) {
   const std::string_view looked = bytes.substr(0, kLooked);

@@ -22,7 +22,9 @@ std::optional<ControlFile> controlFileOf(std::string_view text);
 /// Whether a text has sections of a mnemonic file, whatever its name is.
 bool isMnemonicFile(std::string_view text);
 
-/// Whether the bytes have a control character that no text has.
+/// The first control character that no text has; npos if there is none. `text` is in UTF-8.
+size_t firstBinary(std::string_view text);
+/// Whether the bytes, in any encoding, have such a character.
 bool isBinary(std::string_view bytes);
 
 /// What the bytes of a file are if they are not a program of a FANUC PMC, and how to get one: a text that continues

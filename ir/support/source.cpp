@@ -187,6 +187,13 @@ std::optional<std::string> SourceManager::bytesOf(FileId id, std::string text) c
   if (bytes) *bytes += of.afterEnd;
   return bytes;
 }
+
+size_t SourceManager::textAfterEnd(FileId id) const {
+  const std::string& rest = file(id).afterEnd;
+  constexpr std::string_view kPadding(" \t\r\n\x1A\0", 6);
+  return rest.find_first_not_of(kPadding) == std::string::npos ? 0 : rest.size() - 1;
+}
+
 uint32_t SourceManager::lineCount(FileId id) const { return static_cast<uint32_t>(file(id).lineStarts.size()); }
 
 std::string_view SourceManager::lineText(FileId id, uint32_t line) const {

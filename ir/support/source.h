@@ -89,6 +89,8 @@ public:
   /// The bytes of a file with `text` as its new contents: in its encoding, with its end-of-file mark. Nothing if the
   /// encoding lacks a character.
   std::optional<std::string> bytesOf(FileId file, std::string text) const;
+  /// The number of bytes after a DOS end-of-file mark in the text, if not all of them are such marks, blanks or zeros.
+  size_t textAfterEnd(FileId file) const;
   uint32_t lineCount(FileId file) const;
   /// The text of a line (from 1) without its line end, O(1).
   std::string_view lineText(FileId file, uint32_t line) const;

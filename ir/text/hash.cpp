@@ -91,10 +91,14 @@ private:
     all(name, rungs);
   }
   void add(const Rung& rung) {
-    const auto& [number, title, sourceText, begin, lastLine, key, copy, weight, ops, args, values, notes, transfer,
-                 transferLine, origin] = rung;
-    all(number, title, sourceText, begin, lastLine, key, copy, weight, ops, args, values, notes, transfer, transferLine,
-        origin);
+    const auto& [number, title, sourceText, begin, lastLine, key, copy, weight, constantBits, ops, args, values, notes,
+                 transfer, transferLine, origin] = rung;
+    all(number, title, sourceText, begin, lastLine, key, copy, weight, constantBits, ops, args, values, notes, transfer,
+        transferLine, origin);
+  }
+  void add(const SpaceBit& read) {
+    const auto& [space, bit] = read;
+    all(space, bit);
   }
   void add(const Location& location) {
     const auto& [file, line, column] = location;

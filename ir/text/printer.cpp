@@ -396,6 +396,7 @@ void Printer::printRung(const Rung& rung, uint32_t number, const Remark& remark)
     more = end != std::string_view::npos;
     source.remove_prefix(more ? end + 1 : source.size());
   }
+  for (const SpaceBit& read : rung.constantBits) put("    reads {}\n", bitPlace(read.space.index, read.bit));
   printOps(rung, remark);
   printTransfer(rung);
   printRemark(remark, rung.ops.size(), 2);

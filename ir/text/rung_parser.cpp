@@ -72,6 +72,11 @@ void RungParser::parseBody() {
     parseSource(first);
     first = false;
   }
+  while (scanner_.ok() && scanner_.acceptWord("reads")) {
+    const ParsedPlace place = parsePlace(scanner_, module_, names_.spaces, PlaceForm::Bit);
+    rung_.constantBits.push_back({SpaceId{place.space}, static_cast<uint32_t>(place.bitOffset)});
+    scanner_.endLine();
+  }
   while (scanner_.ok() && !scanner_.peek('}')) parseOp();
   scanner_.expect('}');
 }

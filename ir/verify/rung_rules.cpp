@@ -90,6 +90,10 @@ void RungCheck::header() {
   if (rung_->lastLine != 0 && rung_->lastLine < begin.line)
     fail(Rule::Header, kNoOp, "the last line is before the first");
   if (rung_->weight == 0) fail(Rule::Header, kNoOp, "the weight is 0");
+  const auto bitsIn = [](const Space& space) { return uint64_t{space.units} * space.unitBytes * 8; };
+  for (const auto& [space, bit] : rung_->constantBits)
+    if (space.index >= module_.spaces.size() || bit >= bitsIn(module_.at(space)))
+      fail(Rule::Header, kNoOp, "a bit that it reads does not exist");
 }
 
 // ---- form ----------------------------------------------------------------------------------------------------------

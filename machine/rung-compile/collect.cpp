@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fmt/format.h>
 
+#include "compiler/dialect_choice.h"
 #include "compiler/project.h"
 #include "frontend/dialects/dialect.h"
 #include "ir/support/diag_render.h"
@@ -83,7 +84,7 @@ private:
     sources.config.erase(encoding); // collected texts are UTF-8
   }
 
-  // Reads all files. An unknown dialect is reported by the compiler.
+  // Reads all files.
   bool compile(const compile::Sources& sources, frontend::CompileOptions& options) {
     std::vector<FileId> files;
     for (const std::string& name : sources.files) {
@@ -95,12 +96,10 @@ private:
       if (!file.ok()) return fail(fmt::format("cannot read '{}': {}", name, file.error()));
       files.push_back(file.value());
     }
-    const frontend::Dialect* dialect =
-        sources.dialect.empty() ? frontend::dialectOf(sources_, files.front()) : frontend::findDialect(sources.dialect);
-    if (dialect == nullptr) return true;
     if (project_) options.configPlaces = compiler::placesOf(*project_, sources.config, sources_);
     Diagnostics diagnostics;
-    dialect->compile(sources_, files, options, diagnostics);
+    const frontend::Dialect* dialect = compiler::chooseDialect(sources_, files, sources.dialect, diagnostics);
+    if (dialect != nullptr) dialect->compile(sources_, files, options, diagnostics);
     if (!diagnostics.hasErrors()) return true;
     result_.diagnostics = renderJson(diagnostics, sources_);
     return fail(textOf(diagnostics, sources_, color_));

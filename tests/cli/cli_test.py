@@ -1066,9 +1066,37 @@ class HostileInput(Cli):
         self.survives(path)
 
     def test_the_same_file_twice(self):
+        symbols = self.file("symbols.mne", "%@2\nX0.0 BUTTON\n%\n")
+        ladder = self.file("ladder.mne", "%@3\nSUB 1\nRD BUTTON\nWRT Y0.0\nSUB 2\nSUB 64\n%\n")
         path = self.file("twice.plc", TECHNOL_NULL)
-        done = rungc("check", path, path)
-        self.assertEqual(done.returncode, WRONG)
+        other = os.path.join(os.path.dirname(path), ".", "twice.plc")
+        for words in ((path, path), (path, other), (symbols, symbols, ladder)):
+            done = rungc("check", *words)
+            self.assertEqual(done.returncode, WRONG)
+            self.assertIn(b"' is named twice [file-twice]\n1 error; try `rungc explain file-twice`\n", done.stderr)
+
+    def test_text_after_the_end_of_a_file(self):
+        done = rungc("check", self.file("cut.lad", LAMP + "\x1a\x1a\r\n"))
+        self.assertEqual((done.returncode, done.stderr), (OK, b""))
+        done = rungc("check", self.file("cut.lad", LAMP + "\x1amodule OTHER\n"))
+        self.assertEqual(done.returncode, OK)
+        self.assertIn(b"warning: a Ctrl-Z ends the text here, and 13 bytes after it are left out; the file may be incomplete [incomplete-file]", done.stderr)
+
+    def test_a_mnemonic_file_with_the_name_of_another_list(self):
+        text = "%@A\n%@3\nRD X8.4\nWRT G8.4\nSUB 1\nSUB 2\nSUB 64\n%\n%@E\n"
+        for command in (["check"], ["format", "--stdout"]):
+            done = rungc(*command, self.file("mill.pmc", text))
+            self.assertEqual(done.returncode, WRONG)
+            self.assertIn(b"mill.pmc' is a mnemonic file of a FANUC control: name it .mne, or say --dialect fanuc [foreign-file]\n1 error", done.stderr)
+
+    def test_format_leaves_other_files_alone(self):
+        for name, contents in (("mill.mne", b"\1\0\2\0LEVEL1.#LR\0\0"), ("mill.mne", b"FUNC END1\nLD X0.0\nOUT Y0.0\n"), ("O1.mne", b"%\nO0001\nG0 X0\nM30\n%\n")):
+            path = self.file(name, contents)
+            done = rungc("format", path)
+            self.assertEqual(done.returncode, WRONG)
+            self.assertIn(b"[foreign-file]", done.stderr)
+            with open(path, "rb") as file:
+                self.assertEqual(file.read(), contents)
 
 
 if __name__ == "__main__":

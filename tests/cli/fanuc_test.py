@@ -133,9 +133,11 @@ class Fanuc(unittest.TestCase):
         self.assertIn("'ALONE' is read, but nothing writes it [never-written]", said)
         self.assertIn("'UNSEEN' is written, but nothing reads it [never-read]", said)
         self.assertNotIn("ASKED' is", said)
-        self.write("others.mne", symbols + "%@3\nSUB 1\nRD X9.0\nWRT GIVEN\nWRT OWN\nSUB 2\nSUB 64\n%\n")
+        self.write("others.mne", symbols + "%@3\nSUB 1\nRD X9.0\nWRT GIVEN\nWRT OWN\nSET ASKED\nSET ALONE\nSUB 2\nSUB 64\n%\n")
         said = self.run_rungc("check", "others.mne")[1]
-        self.assertNotIn("never-read", said)
+        self.assertNotIn("'GIVEN' is", said)
+        self.assertNotIn("'ASKED' is", said)
+        self.assertIn("'ALONE' is set, but nothing resets it [never-reset]", said)
 
     def test_a_dummy_coil_is_one_warning(self):
         coils = "".join(f"RD X9.{i}\nWRT R7.0\n" for i in range(5))
@@ -185,6 +187,112 @@ R9091.5
             self.assertEqual(self.run_rungc("check", "part.mne", status=WRONG)[1].count(note), 1)
         self.write("part.mne", "%@3\nRD X9.0\nWRT Y9.0\n")
         self.assertNotIn(note, self.run_rungc("check", "part.mne", status=WRONG)[1])
+
+    def test_a_file_may_be_incomplete(self):
+        whole = "%@A\n%@3\nSUB 1\nRD X9.0\nWRT Y9.0\nSUB 2\nSUB 64\n%\n%@4\nA0.0 1000 TEXT\n%\n%@E\n"
+        section = "warning: the section {} does not end with a line that is %; the file may be incomplete [incomplete-file]"
+        for text, warning in ((whole, ""), (whole + "\x1a", ""), (whole[:-4] + "\x1a", "warning: %@A is not followed by %@E; the file may be incomplete"),
+                              (whole[:-6], "part.mne:9:1: " + section.format("%@4")), (whole.replace("%\n%@4", "%@4"), "part.mne:2:1: " + section.format("%@3")),
+                              ("%@2-E(SYM=1 ADR=2)\nA,X0.0\n" + whole, "part.mne:1:1: " + section.format("%@2-E"))):
+            self.write("part.mne", text)
+            said = self.run_rungc("check", "part.mne")[1]
+            self.assertIn(warning, said)
+            self.assertEqual(said.count("[incomplete-file]"), 1 if warning else 0, text)
+        begin, end = whole.split("%@4")
+        self.write("begin.mne", begin)
+        self.write("end.mne", "%@4" + end)
+        self.assertEqual(self.run_rungc("check", "begin.mne", "end.mne")[1], "")
+
+    def test_a_byte_that_no_text_has(self):
+        self.write("bad.mne", LADDER.replace("RD RUN\nTMRB", "RD R\0UN\nTMRB"))
+        said = self.run_rungc("check", "bad.mne", status=WRONG)[1]
+        self.assertIn(f"bad.mne:{TIMER}:5: error: character 0x00 has no meaning here [bad-character]", said)
+        self.assertIn("note: a text has no such byte: the file was damaged, or it is not a text", said)
+
+    def test_the_type_that_is_not_known_is_in_quotes(self):
+        self.assertIn("the PMC type '' is not known", self.run_rungc("check", "lamp.mne", "--config", "pmc=")[1])
+
+    def test_names_that_begin_like_a_comment(self):
+        self.write("hash.mne", "%@2\nX9.0 #START\nY9.0 #LAMP=A\n%\n%@3\nSUB 1\nRD #START\nWRT #LAMP=A\nSUB 2\nSUB 64\n%\n")
+        self.write("hash.scn", """program hash.mne
+set "#START" 1
+scan 2
+expect "#LAMP=A" 1
+print "#LAMP=A" "#not a name" "text"
+""")
+        self.assertIn("scan 2: #LAMP=A = 1, #not a name, text\n", self.run_rungc("test", "hash.scn")[0])
+        self.write("wrong.scn", "program hash.mne\nset #START 1\n")
+        self.assertIn("a name that begins with # is written in quotes", self.run_rungc("test", "wrong.scn", status=WRONG)[0])
+        done = subprocess.run([Path(RUNGC).resolve(), "run", "-i", "hash.mne", "--set", "#START=1"], cwd=self.folder, capture_output=True, timeout=patience(), check=False,
+                              text=True, input='watch "#LAMP=A"\nscan 2\ntoggle "#START"\nscan 2\nsave saved.scn\n')
+        self.assertEqual((done.returncode, done.stderr), (OK, ""))
+        saved = (self.folder / "saved.scn").read_text()
+        self.assertEqual(saved.split("fanuc\n")[1], 'set "#START" 1\nscan 2\nset "#START" 0\nscan 2\nexpect "#LAMP=A" 0\n')
+        self.assertIn("1 passed", self.run_rungc("test", "saved.scn")[0])
+
+    def test_a_table_is_only_read_or_only_written_if_its_direction_never_changes(self):
+        def ladder(direction, width):
+            return f"""%@2
+D500 TABLE
+D200 DATA
+D300 DIGITS
+D309 NINTH
+D310 TENTH
+D400 NUMBER
+D402 INDEX
+%
+%@3
+SUB 1
+RD {direction}
+RD.STK R0.0
+RD.STK X9.0
+SUB 35
+1
+D0
+TABLE
+DATA
+D1
+WRT Y9.0
+RD {width}
+RD.STK {direction}
+RD.STK R0.0
+RD.STK X9.0
+SUB 18
+10
+DIGITS
+NUMBER
+INDEX
+WRT Y9.1
+SUB 2
+SUB 64
+%
+"""
+
+        def rungs(place):
+            entry, = json.loads(self.run_rungc("xref", "--format", "json", "table.mne", "--place", place)[0])
+            return tuple({use["rung"] for use in entry[side]} for side in ("written", "read"))
+
+        said = {"R9091.0": ("read", "written"), "R9091.1": ("written", "read"), "X9.7": ("read and written", "read and written")}
+        for direction, (ofTable, ofData) in said.items():
+            self.write("table.mne", ladder(direction, "R9091.0"))
+            self.assertNotIn("error", self.run_rungc("check", "table.mne")[1])
+            for name, line, rung, access in (("TABLE", 18, 1, ofTable), ("DATA", 19, 1, ofData), ("DIGITS", 28, 2, ofTable), ("NUMBER", 29, 2, ofData)):
+                self.assertIn(f"{name}: {access} here", self.run_rungc("explain", f"table.mne:{line}:1")[0])
+                self.assertEqual(rungs(name), ({rung} if "written" in access else set(), {rung} if "read" in access else set()), (direction, name))
+        for width, tenth in (("R9091.0", set()), ("R9091.1", {2})):
+            self.write("table.mne", ladder("R9091.0", width))
+            self.assertEqual([rungs(name)[1] for name in ("DIGITS", "NINTH", "TENTH")], [{2}, {2}, tenth])
+
+    def test_other_commands_show_a_few_warnings(self):
+        for count in (10, 11):
+            symbols = "".join(f"R{i}.0 NAME{i}\n" for i in range(count))
+            self.write("many.mne", f"%@2\n{symbols}%\n%@3\nSUB 1\n" + "".join(f"RD NAME{i}\nWRT Y{i}.0\n" for i in range(count)) + "SUB 2\nSUB 64\n%\n")
+            self.assertEqual(self.run_rungc("check", "many.mne")[1].count("[never-written]"), count)
+            said = self.run_rungc("run", "many.mne", "--scans", "1")[1]
+            self.assertEqual(said.count("[never-written]"), 10 if count == 10 else 0)
+            self.assertEqual("11 warnings: `rungc check many.mne` shows them\n" in said, count == 11)
+        report = json.loads(self.run_rungc("build", "--json", "many.mne", "-o", "many.so")[0])
+        self.assertEqual(len(report), 11)
 
     def test_explain_what_is_at_a_position(self):
         said = self.run_rungc("explain", f"lamp.mne:{LATCH}:4")[0]

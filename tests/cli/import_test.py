@@ -55,6 +55,13 @@ class Import(unittest.TestCase):
     def traced(self, rows):
         return self.file("trace.csv", "\r\n".join(["Mode,TIME CYCLE", "Data," + ",".join(NAMES), *rows, ""]))
 
+    def test_a_remark_shows_the_beginning_of_a_long_line(self):
+        for name, contents, shown in (("p.txt", "%\nN600000 P" + 3_000_000 * "1" + "\n%\n", "the value is '111"),
+                                      ("s.csv", "START,X0010.0,\nSTOP," + 3_000_000 * "y" + ",\n", "found 'yyy")):
+            said = self.rungc("import", self.file(name, contents), status=WRONG)[1]
+            self.assertIn(shown, said)
+            self.assertLess(len(said), 1000)
+
     def test_each_kind_is_recognised_by_its_contents(self):
         for text, begin in ((PARAMETERS, "# Made by rungc import from f"), (SYMBOLS, "; Made by rungc import from f"),
                             (SIGNALS, "# Made by rungc import from f: a signal operation file")):

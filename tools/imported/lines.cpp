@@ -9,6 +9,7 @@
 #include "rtlib/text/blanks.h"
 #include "rtlib/text/controls.h"
 #include "rtlib/text/end_of_file.h"
+#include "rtlib/text/utf8.h"
 #include "tools/imported/imported.h"
 
 namespace rung::imported {
@@ -80,5 +81,12 @@ std::string nameOf(const PmcAddress& address) {
 }
 
 std::string asShown(std::string_view text) { return text::withoutControls(text::trimmed(text)); }
+
+std::string inBrief(std::string_view text) {
+  constexpr size_t kMost = 80;
+  const std::string_view trimmed = text::trimmed(text);
+  if (trimmed.size() <= kMost) return asShown(trimmed);
+  return asShown(text::wholeCharacters(trimmed, kMost)) + "...";
+}
 
 } // namespace rung::imported

@@ -35,5 +35,7 @@ std::string nameOf(const PmcAddress& address);
 
 // A text of the file as a part of a comment: without control characters.
 std::string asShown(std::string_view text);
+// As a part of a remark: not longer than a line either.
+std::string inBrief(std::string_view text);
 
 } // namespace rung::imported

@@ -100,7 +100,7 @@ private:
     const auto found = takeNumber(rest);
     if (!found)
       return wrong(positionOf(line, begin),
-                   fmt::format("found '{}', expected a parameter such as N600000 P48", asShown(line.text)));
+                   fmt::format("found '{}', expected a parameter such as N600000 P48", inBrief(line.text)));
     Parameter parameter{
         .number = *found, .value = {}, .at = positionOf(line, begin), .valueAt = positionOf(line, offset())};
     parameter.value = std::string(text::trimmed(rest));
@@ -170,7 +170,7 @@ public:
         "# Made by rungc import from {}{}{}: what the control keeps while it is off.\n"
         "# A scenario takes it by `include FILE`, retained memory by `rungc run -i --retain NAME < FILE`.\n"
         "# Only values other than 0: {} of {}.\n{}",
-        asShown(source_.name), file.title.empty() ? "" : " ", file.title, written_, file.parameters.size(), text_);
+        inBrief(source_.name), file.title.empty() ? "" : " ", file.title, written_, file.parameters.size(), text_);
   }
 
 private:
@@ -224,7 +224,7 @@ private:
                     true);
     if (value.form != text::NumberForm::Whole || value.negative || value.magnitude > range.most)
       return remark(parameter.valueAt,
-                    fmt::format("the value is '{}', expected 0 to {}", asShown(parameter.value), range.most), true);
+                    fmt::format("the value is '{}', expected 0 to {}", inBrief(parameter.value), range.most), true);
     if (value.magnitude != 0) set(range, parameter, ":2", std::to_string(value.magnitude));
   }
 
@@ -232,7 +232,7 @@ private:
     const bool isBinary = parameter.value.find_first_not_of("01") == std::string::npos;
     if (parameter.value.size() != 8 || !isBinary)
       return remark(parameter.valueAt,
-                    fmt::format("the value is '{}', expected eight binary digits", asShown(parameter.value)), true);
+                    fmt::format("the value is '{}', expected eight binary digits", inBrief(parameter.value)), true);
     if (parameter.value.find('1') != std::string::npos) set(range, parameter, "", "0b" + parameter.value);
   }
 
@@ -242,14 +242,14 @@ private:
     if (value.form == text::NumberForm::Real)
       return remark(parameter.valueAt,
                     fmt::format("{} has a decimal point; how the control stores such a number is not known; left out",
-                                asShown(parameter.value)));
+                                inBrief(parameter.value)));
     if (value.form != text::NumberForm::Whole)
       return remark(parameter.valueAt,
-                    fmt::format("the value is '{}', expected a whole number", asShown(parameter.value)), true);
+                    fmt::format("the value is '{}', expected a whole number", inBrief(parameter.value)), true);
     if (!text::fitsBits(value, width * 8))
       return remark(parameter.valueAt,
                     fmt::format("{} does not fit in {}, the step of the numbers here; left out",
-                                asShown(parameter.value), width == 1 ? "one byte" : fmt::format("{} bytes", width)));
+                                inBrief(parameter.value), width == 1 ? "one byte" : fmt::format("{} bytes", width)));
     if (value.magnitude != 0) set(range, parameter, width == 1 ? "" : fmt::format(":{}", width), parameter.value);
   }
 

@@ -72,7 +72,7 @@ private:
 
   bool readFirst(const std::vector<Field>& fields) {
     hasBegun_ = text::equalsIgnoringCase(fields[0].text, "PMC SIGNAL DATA");
-    if (!hasBegun_) wrong(fields[0].at, fmt::format("found '{}', expected PMC SIGNAL DATA", asShown(fields[0].text)));
+    if (!hasBegun_) wrong(fields[0].at, fmt::format("found '{}', expected PMC SIGNAL DATA", inBrief(fields[0].text)));
     return hasBegun_;
   }
 
@@ -80,7 +80,7 @@ private:
     const std::string command = text::upper(fields[0].text);
     if (command == "REMARK" || command == "R") return readRemark(line, fields);
     if (command == "SET" || command == "S") return readSet(fields);
-    wrong(fields[0].at, fmt::format("found '{}', expected REMARK or SET", asShown(fields[0].text)));
+    wrong(fields[0].at, fmt::format("found '{}', expected REMARK or SET", inBrief(fields[0].text)));
   }
 
   void readRemark(const Line& line, const std::vector<Field>& fields) {
@@ -95,7 +95,7 @@ private:
     if (!wait || *wait < 0 || *wait > kMostWaitMs)
       return wrong(fields.size() < 2 ? fields[0].at : fields[1].at,
                    fmt::format("found '{}', expected the time to wait in ms, 0 to {}",
-                               fields.size() < 2 ? "nothing" : asShown(fields[1].text), kMostWaitMs));
+                               fields.size() < 2 ? "nothing" : inBrief(fields[1].text), kMostWaitMs));
     if (fields.size() % 3 != 2) return wrong(fields.back().at, "expected groups of address, value and type");
     text_ += "\n" + slotsText(slotsOf(*wait * 1000));
     for (size_t i = 2; i < fields.size(); i += 3) readGroup(std::span(fields).subspan(i, 3));
@@ -108,14 +108,14 @@ private:
     const text::WrittenNumber value = text::writtenNumber(group[1].text);
     if (!isName(group[0].text) || (address && address->pmc != 1))
       return wrong(group[0].at,
-                   fmt::format("found '{}', expected an address of PMC 1 or a symbol", asShown(group[0].text)));
+                   fmt::format("found '{}', expected an address of PMC 1 or a symbol", inBrief(group[0].text)));
     if (type == nullptr || (address && address->bit.has_value() != (type->bits == 1)))
-      return wrong(group[2].at, fmt::format("found '{}', expected {}", asShown(group[2].text),
+      return wrong(group[2].at, fmt::format("found '{}', expected {}", inBrief(group[2].text),
                                             !address       ? "BIT, BYTE, WORD, DWORD or LONG"
                                             : address->bit ? "BIT for a bit"
                                                            : "BYTE, WORD, DWORD or LONG for a byte address"));
     if (!text::fitsBits(value, type->bits))
-      return wrong(group[1].at, fmt::format("found '{}', expected a whole number of {} bit{}", asShown(group[1].text),
+      return wrong(group[1].at, fmt::format("found '{}', expected a whole number of {} bit{}", inBrief(group[1].text),
                                             type->bits, type->bits == 1 ? "" : "s"));
     const std::string name = address ? nameOf(*address) : group[0].text;
     text_ +=

@@ -68,7 +68,7 @@ private:
     const size_t open = line.text.find('('), close = line.text.find(')');
     if (!text::startsWithIgnoringCase(text::trimmed(line.text), "%@2-E"))
       return remark(positionOf(line, 0),
-                    fmt::format("'{}' begins another section; expected %@2-E(SYM=1 ADR=2 CM1=3)", asShown(line.text)),
+                    fmt::format("'{}' begins another section; expected %@2-E(SYM=1 ADR=2 CM1=3)", inBrief(line.text)),
                     true);
     if (open == std::string_view::npos || close == std::string_view::npos || close < open) return;
     columns_ = {.symbol = kNoColumn, .address = kNoColumn, .comments = {}};
@@ -90,7 +90,7 @@ private:
                              : std::nullopt;
     const bool isSymbol = text::equalsIgnoringCase(key, "SYM"), isAddress = text::equalsIgnoringCase(key, "ADR");
     if (!column || (!isSymbol && !isAddress && !comment))
-      return remark(positionOf(line, begin), fmt::format("found '{}', expected SYM=n, ADR=n or CM1=n", asShown(word)),
+      return remark(positionOf(line, begin), fmt::format("found '{}', expected SYM=n, ADR=n or CM1=n", inBrief(word)),
                     true);
     if (isSymbol) columns_->symbol = *column - 1;
     if (isAddress) columns_->address = *column - 1;
@@ -117,7 +117,7 @@ private:
     const auto field = [&](size_t column) { return column < fields.size() ? fields[column].text : std::string(); };
     if (columns.address >= fields.size() || columns.symbol >= fields.size())
       return remark(positionOf(line, 0),
-                    fmt::format("found '{}', expected a symbol, a comma and an address", asShown(line.text)), true);
+                    fmt::format("found '{}', expected a symbol, a comma and an address", inBrief(line.text)), true);
     const bool isTitle = rows_.empty() && !columns_ && !pmcAddress(field(columns.address)) && isTitleLine(line);
     if (isTitle) return;
     Row row{.symbol = field(columns.symbol), .address = field(columns.address), .comments = {}};
@@ -136,21 +136,21 @@ private:
     const std::optional<PmcAddress> address = pmcAddress(row.address);
     if (!address)
       return remark(addressAt,
-                    fmt::format("found '{}', expected an address such as X8.4, D100 or P12", asShown(row.address)),
+                    fmt::format("found '{}', expected an address such as X8.4, D100 or P12", inBrief(row.address)),
                     true);
     if (address->pmc != 1)
-      return remark(addressAt, fmt::format("{} belongs to PMC {}; left out", asShown(row.address), address->pmc));
+      return remark(addressAt, fmt::format("{} belongs to PMC {}; left out", inBrief(row.address), address->pmc));
     if (row.symbol.empty())
-      return remark(addressAt, fmt::format("{} has a comment and no symbol; left out", asShown(row.address)));
+      return remark(addressAt, fmt::format("{} has a comment and no symbol; left out", inBrief(row.address)));
     if (const size_t bad = row.symbol.find_first_of(" \t,;%\""); bad != std::string::npos)
-      return remark(symbolAt, fmt::format("the symbol '{}' has a '{}' in it", asShown(row.symbol), row.symbol[bad]),
+      return remark(symbolAt, fmt::format("the symbol '{}' has a '{}' in it", inBrief(row.symbol), row.symbol[bad]),
                     true);
     if (countCodePoints(row.symbol) > kLongestSymbol)
       remark(symbolAt, fmt::format("the symbol {} is longer than {} characters, the most that any control takes",
-                                   asShown(row.symbol), kLongestSymbol));
+                                   inBrief(row.symbol), kLongestSymbol));
     const bool isNumber = row.symbol.find_first_not_of("0123456789") == std::string::npos;
     if (isNumber || pmcAddress(row.symbol))
-      remark(symbolAt, fmt::format("the symbol {} is also {}, which takes precedence in a program", asShown(row.symbol),
+      remark(symbolAt, fmt::format("the symbol {} is also {}, which takes precedence in a program", inBrief(row.symbol),
                                    isNumber ? "a number" : "an address"));
     if (isKnown(line, symbolAt, row, nameOf(*address))) return;
     for (std::string& comment : row.comments) comment = withoutMarks(std::move(comment));
@@ -169,7 +169,7 @@ private:
     const auto [known, isNew] = symbols_.try_emplace(text::upper(row.symbol), Known{address, line.number});
     if (!isNew && known->second.address != address)
       remark(at,
-             fmt::format("{} is {} here and {} in line {}", asShown(row.symbol), address, known->second.address,
+             fmt::format("{} is {} here and {} in line {}", inBrief(row.symbol), address, known->second.address,
                          known->second.line),
              true);
     return !isNew;

@@ -80,7 +80,7 @@ private:
       const std::optional<PmcAddress> address = pmcAddress(fields[i].text);
       if (!address || !address->bit || address->pmc != 1)
         wrong(fields[i].at,
-              fmt::format("found '{}', expected the address of a bit of PMC 1, such as X8.4", asShown(fields[i].text)));
+              fmt::format("found '{}', expected the address of a bit of PMC 1, such as X8.4", inBrief(fields[i].text)));
       const Signal signal = address ? Signal{nameOf(*address), roleOf(*address), fields[i].at} : Signal{};
       if (address && std::ranges::find(trace_.signals, signal.name, &Signal::name) != trace_.signals.end())
         wrong(fields[i].at, fmt::format("{} has a column already", signal.name));
@@ -92,7 +92,7 @@ private:
   void readFrame(const Line& line, const std::vector<Field>& fields) {
     const auto number = text::wholeIn<int64_t>(fields[0].text);
     if (!number || *number > kMostFrames || *number < -kMostFrames)
-      return wrong(fields[0].at, fmt::format("found '{}', expected the number of a frame", asShown(fields[0].text)));
+      return wrong(fields[0].at, fmt::format("found '{}', expected the number of a frame", inBrief(fields[0].text)));
     const int64_t before = std::exchange(last_, *number).value_or(*number - 1);
     if (*number != before + 1)
       return wrong(fields[0].at, fmt::format("the first column must be the number of the frame, one more in each line; "
@@ -104,7 +104,7 @@ private:
     Frame frame{.number = *number, .values = {}};
     for (size_t i = 1; i < fields.size(); ++i) {
       if (fields[i].text != "0" && fields[i].text != "1")
-        return wrong(fields[i].at, fmt::format("found '{}', expected 0 or 1", asShown(fields[i].text)));
+        return wrong(fields[i].at, fmt::format("found '{}', expected 0 or 1", inBrief(fields[i].text)));
       frame.values.push_back(fields[i].text == "1");
     }
     trace_.frames.push_back(std::move(frame));

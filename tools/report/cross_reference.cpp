@@ -7,8 +7,6 @@
 #include <algorithm>
 #include <iterator>
 #include <map>
-#include <optional>
-#include <set>
 #include <tuple>
 #include <utility>
 
@@ -54,67 +52,8 @@ CrossReference::CrossReference(const rung_program& program, const ir::Uses& uses
     for (const ir::RungUse& use : uses.of(rung))
       if (!use.keeps) add(first, use);
   }
-  sort();
-}
-
-void CrossReference::sort() {
   std::ranges::stable_sort(sorted_, {}, [](const Use& use) { return std::pair(orderOf(use.place), use.access.rung); });
-  indexed_.clear();
   std::ranges::copy_if(sorted_, std::back_inserter(indexed_), [](const Use& use) { return use.access.indexed; });
-}
-
-namespace {
-
-// Finds a drawn rung by its lines.
-class RungLines {
-public:
-  explicit RungLines(const rung_program& program) : program_(program) {
-    for (uint32_t rung = 0; rung < program.rung_count; ++rung)
-      if (program.rungs[rung].number != 0 && program.rungs[rung].file != RUNG_NONE)
-        rungs_.try_emplace(startOf(rung), rung);
-  }
-
-  std::optional<uint32_t> at(std::string_view file, uint32_t line) const {
-    const auto after = rungs_.upper_bound({file, line});
-    if (after == rungs_.begin()) return std::nullopt;
-    const auto& [start, rung] = *std::prev(after);
-    if (start.first != file || line > program_.rungs[rung].last_line) return std::nullopt;
-    return rung;
-  }
-
-private:
-  using Start = std::pair<std::string_view, uint32_t>;
-  Start startOf(uint32_t rung) const {
-    return {program_.files[program_.rungs[rung].file], program_.rungs[rung].first_line};
-  }
-
-  const rung_program& program_;
-  std::map<Start, uint32_t> rungs_;
-};
-
-} // namespace
-
-void CrossReference::addConstantBits(const SourceManager& sources, const frontend::Analysis& analysis) {
-  const RungLines lines(program_);
-  using Read = std::tuple<uint32_t, uint32_t, uint32_t>; // rung, space, bit
-  std::set<Read> known;
-  for (const Use& use : sorted_) known.emplace(use.access.rung, use.place.space.index, use.place.first);
-  std::vector<Use> added;
-  for (const frontend::OperandUse& operand : analysis.operands()) {
-    if (operand.access != frontend::Access::Read || operand.place.bits != 1 || !operand.computed.empty()) continue;
-    const std::optional<BitRange> named = rangeOf(program_, operand.place);
-    if (!named) continue;
-    const BitRange place = listed(*named);
-    const LineCol at = sources.lineCol(operand.range.begin);
-    const std::optional<uint32_t> rung = lines.at(at.file, at.line);
-    if (!rung || known.contains({*rung, place.space.index, place.first})) continue;
-    const auto isOfRung = [&](const RungAccess& access) { return access.rung == *rung; };
-    if (std::ranges::none_of(accessesOf(place), isOfRung)) // not as a part of something longer either
-      added.push_back({{.rung = *rung, .reads = true, .as = place}, place, place, ir::Type::Bit});
-    known.emplace(*rung, place.space.index, place.first);
-  }
-  sorted_.insert(sorted_.end(), added.begin(), added.end());
-  sort();
 }
 
 void CrossReference::add(uint32_t rung, const ir::RungUse& use) {

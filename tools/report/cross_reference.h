@@ -1,7 +1,7 @@
 // Which rungs read and which write each place that a program's rungs use or its symbols name. Derived from the IR as
 // the front end built it (ir/analysis/uses.h), so it shows what the program does and not how its text looks: an operand
 // of four bytes is a use of all of them, an alias a use of the place that it names, and a latch a use of the place from
-// which it was copied. Bits that the front end has replaced by their constant value are added from the text.
+// which it was copied.
 #pragma once
 #include <algorithm>
 #include <cstdint>
@@ -11,11 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include "frontend/sema/analysis.h"
 #include "ir/analysis/uses.h"
 #include "ir/core/memory_use.h"
 #include "ir/image/program_image.h"
-#include "ir/support/source.h"
 #include "rtlib/load/ref.h"
 #include "rung/program.h"
 
@@ -46,8 +44,6 @@ class CrossReference {
 public:
   // All arguments must outlive it. `shown`: spaces whose cells the control displays or passes on (frontend::Dialect).
   CrossReference(const rung_program& program, const ir::Uses& uses, std::span<const std::string_view> shown);
-  // Adds the bits that a rung reads by its text, and not by its code, because the front end knows their value.
-  void addConstantBits(const SourceManager& sources, const frontend::Analysis& analysis);
 
   // The places that rungs use and the places of symbols, each once, by address.
   std::vector<Entry> all() const;
@@ -68,7 +64,6 @@ private:
     ir::Type type = ir::Type::None;
   };
   void add(uint32_t rung, const ir::RungUse& use);
-  void sort();
   ir::BitRange listed(const ir::BitRange& place) const;
   bool reaches(const Use& use, const ir::BitRange& bits) const;
   void addPlaces(std::vector<runtime::Ref>& places) const;
@@ -98,13 +93,12 @@ public:
   ModuleReference& operator=(const ModuleReference&) = delete;
 
   const CrossReference& get() const { return reference_; }
-  CrossReference& get() { return reference_; }
 
 private:
   const ir::Layout layout_;
   const ir::ProgramImage image_;
   const ir::Uses uses_;
-  CrossReference reference_;
+  const CrossReference reference_;
 };
 
 // The places that a program's rungs use, as a user would list them.

@@ -210,9 +210,10 @@ void Checker::check(const Definition& definition, bool used, uint32_t reach) {
     return;
   }
   for (const Oddity& oddity : odditiesOf(*place, used, reach)) {
-    const bool isOneSided = oddity.code == diag::NeverWritten || oddity.code == diag::NeverRead;
-    if (isOneSided && definition.usedByControl) continue; // the other side is not in the program
-    oddity.code == diag::UnusedName ? reportUnused(definition) : report(oddity, definition);
+    if (oddity.code == diag::UnusedName)
+      reportUnused(definition);
+    else if (!definition.usedByControl) // otherwise the other side is not in the program
+      report(oddity, definition);
   }
 }
 

@@ -225,6 +225,7 @@ void addEmit(CommandLine& app, int& status) {
 void addCheck(CommandLine& app, int& status) {
   Command command = app.add("check", "Report all mistakes in a program");
   auto options = std::make_shared<SourceOptions>();
+  options->isCheck = true;
   addSourceOptions(command, *options);
   command.onRun([options, &status] {
     SourceManager sources;

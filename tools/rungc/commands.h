@@ -33,6 +33,7 @@ struct SourceOptions {
   bool strict = false;
   bool json = false;
   bool quiet = false;
+  bool isCheck = false; // warnings are what the command is for; others show a few, and the number of more
   std::string color = "auto";
 };
 

@@ -6,6 +6,7 @@
 #include <span>
 #include <string_view>
 
+#include "compiler/dialect_choice.h"
 #include "frontend/network/convert/convert.h"
 #include "ir/support/diag/source.h"
 #include "tools/rungc/commands.h"

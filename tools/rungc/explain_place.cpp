@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <memory>
 
+#include "compiler/dialect_choice.h"
 #include "compiler/reference.h"
 #include "frontend/ladder/text/keywords.h"
 #include "frontend/syntax/word_lexer.h"
@@ -273,9 +274,7 @@ public:
     }
     program_ = dialect_->check(sources_, *files, compile_, diagnostics_);
     if (!diagnostics_.hasErrors()) module_ = program_->build();
-    if (module_ == nullptr) return true;
-    reference_.emplace(*module_, dialect_->shownSpaces);
-    reference_->get().addConstantBits(sources_, analysis());
+    if (module_ != nullptr) reference_.emplace(*module_, dialect_->shownSpaces);
     return true;
   }
   const SourceManager& sources() const { return sources_; }

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <memory>
 
+#include "compiler/dialect_choice.h"
 #include "ir/support/check.h"
 #include "rtlib/load/file.h"
 #include "tools/rungc/commands.h"

@@ -22,6 +22,7 @@
 #include "tools/scenario/console.h"
 #include "tools/scenario/prompt.h"
 #include "tools/scenario/trace.h"
+#include "tools/scenario/words.h"
 
 namespace rung::rungc {
 namespace {
@@ -234,10 +235,10 @@ private:
     const size_t equals = pair.find('=');
     if (equals == std::string::npos || equals == 0) return failure("expected NAME=VALUE");
     const std::string name = pair.substr(0, equals);
-    const std::string value = pair.substr(equals + 1);
-    Result<std::string> plain = executeLine(fmt::format("set {} {}", name, value));
+    const std::string value = pair.substr(equals + 1), word = scenario::asWord(name);
+    Result<std::string> plain = executeLine(fmt::format("set {} {}", word, value));
     if (plain.ok()) return plain;
-    const Result<std::string> quoted = executeLine(fmt::format("set {} \"{}\"", name, value));
+    const Result<std::string> quoted = executeLine(fmt::format("set {} \"{}\"", word, value));
     return quoted.ok() || !session_.nc().writePlace(session_.instance().program(), name) ? quoted : plain;
   }
 

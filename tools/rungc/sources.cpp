@@ -1,5 +1,6 @@
 // Options and steps of all commands that compile.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -12,6 +13,7 @@
 #include <string_view>
 
 #include "compiler/configuration.h"
+#include "compiler/dialect_choice.h"
 #include "compiler/project.h"
 #include "ir/support/diag_render.h"
 #include "rtlib/load/file.h"
@@ -98,6 +100,13 @@ size_t rungsOf(const ir::Module& module) {
   return numbers.size();
 }
 
+constexpr size_t kMostWarnings = 10; // that a command shows whose purpose is not to check
+
+std::string shownFiles(const SourceOptions& options) {
+  const std::string files = options.project ? options.project->file : fmt::format("{}", fmt::join(options.files, " "));
+  return text::withoutControls(files);
+}
+
 } // namespace
 
 void printDiagnostics(const Diagnostics& diagnostics, const SourceManager& sources, const SourceOptions& options) {
@@ -105,9 +114,12 @@ void printDiagnostics(const Diagnostics& diagnostics, const SourceManager& sourc
     std::cout << renderJson(diagnostics, sources) << '\n';
     return;
   }
+  const size_t warnings = diagnostics.warningCount();
   RenderOptions render;
   render.color = wantsColor(options.color, STDERR_FILENO);
+  render.warnings = options.isCheck || warnings <= kMostWarnings;
   std::cerr << renderText(diagnostics, sources, render);
+  if (!render.warnings) fmt::print(stderr, "{} warnings: `rungc check {}` shows them\n", warnings, shownFiles(options));
   std::cerr << closingLine(diagnostics);
 }
 

@@ -4,6 +4,7 @@
 #include <memory>
 #include <span>
 
+#include "compiler/dialect_choice.h"
 #include "ir/support/diag/source.h"
 #include "tools/rungc/commands.h"
 #include "tools/scenario/prompt.h"

@@ -46,8 +46,7 @@ int run(const XrefOptions& options) {
   const auto compiled = compileSources(sources, options.source, {.keepSource = true}, status);
   if (!compiled) return status;
   const ir::ProgramImage image(*compiled->layout, compiled->codeHash);
-  report::CrossReference reference(image.program(), *compiled->uses, compiled->dialect->shownSpaces);
-  reference.addConstantBits(sources, compiled->source->analysis());
+  const report::CrossReference reference(image.program(), *compiled->uses, compiled->dialect->shownSpaces);
   const bool listed = !options.places.empty();
   auto entries = listed ? placesOf(reference, options) : reference.all();
   if (!entries) return kWrong;

@@ -213,7 +213,7 @@ Outcome Console::toggle(std::span<const std::string> words) {
   const std::optional<runtime::Ref> place = session_.nc().writePlace(session_.instance().program(), name);
   if (!place) return fail(unknownName(session_.instance().program(), session_.nc(), name));
   if (place->kind != runtime::RefKind::Bit) return fail(fmt::format("{0} is not a bit; write: set {0} VALUE", name));
-  return executeLine(fmt::format("set {} {}", name, session_.instance().read(*place) == 0 ? 1 : 0));
+  return executeLine(fmt::format("set {} {}", asWord(name), session_.instance().read(*place) == 0 ? 1 : 0));
 }
 
 Outcome Console::watch(std::span<const std::string> words) {
@@ -366,12 +366,6 @@ std::string relativeTo(const fs::path& folder, const std::string& file) {
   return none ? file : relative.string();
 }
 
-// Quotes the text if needed, as one or more words at the end of a statement.
-std::string asWord(const std::string& text) {
-  const bool plain = !text.starts_with('#') && text.find_first_of(" \t") == std::string::npos;
-  return plain ? text : '"' + text + '"';
-}
-
 // Files that the control reads are relative to the scenario; those of the compiler are relative to the program.
 std::string configValue(const std::string& dialect, const std::string& key, const std::string& value,
                         const fs::path& folder) {
@@ -384,12 +378,12 @@ std::string configValue(const std::string& dialect, const std::string& key, cons
 // "" for a value that a scenario cannot write: a text that contains a quotation mark.
 std::string expectationOf(const std::string& name, const Reading& reading) {
   switch (reading.kind) {
-  case ValueKind::Int: return fmt::format("expect {} {}", name, reading.integer);
-  case ValueKind::Real: return fmt::format("expect {} {}", name, reading.real);
+  case ValueKind::Int: return fmt::format("expect {} {}", asWord(name), reading.integer);
+  case ValueKind::Real: return fmt::format("expect {} {}", asWord(name), reading.real);
   case ValueKind::Text: break;
   }
   const bool writable = reading.text.find_first_of("\"\n\r") == std::string::npos;
-  return writable ? fmt::format("expect {} \"{}\"", name, reading.text) : std::string();
+  return writable ? fmt::format("expect {} \"{}\"", asWord(name), reading.text) : std::string();
 }
 
 std::string withoutRung(std::string_view fault) { // the rung and the file in brackets may change

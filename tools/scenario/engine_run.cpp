@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "rtlib/nc/control/control.h"
+#include "tools/scenario/words.h"
 
 namespace rung::scenario {
 
@@ -90,11 +91,6 @@ std::string counted(uint32_t count, std::string_view what) {
   return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
 }
 
-std::string inWords(const std::string& name) {
-  const bool plain = !name.starts_with('#') && name.find_first_of(" \t") == std::string::npos;
-  return plain ? name : '"' + name + '"';
-}
-
 bool same(const runtime::StateChange& a, const runtime::StateChange& b) {
   return a.kind == b.kind && a.slot == b.slot && a.name == b.name && a.formerName == b.formerName;
 }
@@ -118,8 +114,8 @@ std::optional<runtime::ChangeKind> changeKindFromName(std::string_view name) {
 std::string textOf(const runtime::StateChange& change) {
   std::string text(runtime::kChangeKinds[static_cast<size_t>(change.kind)]);
   if (change.slot) text.append(" ").append(kStateWord);
-  if (change.kind == runtime::ChangeKind::Renamed) text += " " + inWords(change.formerName);
-  return text + " " + inWords(change.name);
+  if (change.kind == runtime::ChangeKind::Renamed) text += " " + asWord(change.formerName);
+  return text + " " + asWord(change.name);
 }
 
 ReplaceReport::ReplaceReport(const rung::Replacement& replacement) {

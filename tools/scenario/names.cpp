@@ -119,13 +119,11 @@ Result<std::string> printedLine(const Statement& print, const runtime::Instance&
   bool first = true;
   for (const KeyValue& item : print.keys) {
     line += std::exchange(first, false) ? " " : ", ";
-    if (item.key.empty()) {
-      line += item.value.text;
-      continue;
-    }
-    const Result<Reading> reading = readName(instance, nc, item.key, false);
-    if (!reading.ok()) return reading.failure();
-    line += fmt::format("{} = {}", item.key, show(reading.value()));
+    const std::string& text = item.key.empty() ? item.value.text : item.key;
+    const bool isText = item.key.empty() && !text.starts_with('#'); // in quotes, # does not begin a comment
+    const Result<Reading> reading = isText ? failure(text) : readName(instance, nc, text, false);
+    if (!reading.ok() && !item.key.empty()) return reading.failure();
+    line += reading.ok() ? fmt::format("{} = {}", text, show(reading.value())) : text;
   }
   return line;
 }

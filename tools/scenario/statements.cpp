@@ -317,12 +317,24 @@ bool isMessageWord(std::string_view name) {
   return text::equalsIgnoringCase(name, "message") || text::equalsIgnoringCase(name, "msg");
 }
 
+namespace {
+
+// Whether a comment has no blank after its `#`: it may be meant as a name.
+bool mayEndWithName(std::string_view line) {
+  const size_t at = line.find(" #");
+  return at != std::string_view::npos && at + 2 < line.size() && line[at + 2] != ' ' && line[at + 2] != '#';
+}
+
+} // namespace
+
 ParsedLine parseLine(std::string_view line) {
   std::vector<ScenarioWord> words;
   std::string problem = splitLine(line, words);
   if (!problem.empty()) return {{}, std::move(problem), true};
   if (words.empty()) return {};
   ParsedLine parsed = LineParser(std::move(words)).run();
+  if (parsed.problem.starts_with("expected a") && mayEndWithName(line))
+    parsed.problem += "; a name that begins with # is written in quotes, other words after # are a comment";
   if (parsed.statement) parsed.statement->text = text::trimmed(line);
   return parsed;
 }

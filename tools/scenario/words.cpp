@@ -52,6 +52,11 @@ std::string splitLine(std::string_view line, std::vector<ScenarioWord>& words) {
   }
 }
 
+std::string asWord(const std::string& text) {
+  const bool plain = !text.starts_with('#') && text.find_first_of(" \t") == std::string::npos;
+  return plain ? text : '"' + text + '"';
+}
+
 Value valueOf(const ScenarioWord& word) {
   Value value;
   value.text = word.text;

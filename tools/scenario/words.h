@@ -15,6 +15,8 @@ struct ScenarioWord {
 
 // The words of a line up to a comment. Returns "" or what is wrong.
 std::string splitLine(std::string_view line, std::vector<ScenarioWord>& words);
+// The text as one word: in quotes if it has blanks, or begins like a comment, as symbols of FANUC may.
+std::string asWord(const std::string& text);
 
 // A number, a bit (on, off, true or false), or else a text.
 Value valueOf(const ScenarioWord& word);

@@ -1,6 +1,8 @@
 // The dialect's entry: reads all files, checks the program, lowers it.
 #include "frontend/dialects/fanuc/fanuc.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "frontend/dialects/fanuc/config.h"
@@ -13,6 +15,7 @@
 #include "frontend/dialects/fanuc/rows/instructions.h"
 #include "frontend/network/check/analyse.h"
 #include "frontend/network/format.h"
+#include "frontend/network/read/list_reader.h"
 #include "frontend/network/read/reading.h"
 #include "ir/support/diag/operand.h"
 #include "ir/support/diag/pmc.h"
@@ -58,6 +61,27 @@ bool isSimulated(const frontend::CompileOptions& options) {
   return nc != options.config.end() && nc->second == "simulated";
 }
 
+// A byte that no text has, in a mnemonic file: it was damaged.
+bool checkBytes(const SourceManager& sources, FileId file, Diagnostics& diagnostics) {
+  const size_t at = firstBinary(sources.text(file));
+  if (at == std::string_view::npos) return true;
+  diagnostics.report(diag::BadCharacter, sources.range(file, at, at + 1))
+          .note("a text has no such byte: the file was damaged, or it is not a text")
+      << fmt::format("0x{:02X}", static_cast<unsigned char>(sources.text(file)[at]));
+  return false;
+}
+
+// Reports a file that is something else: LADDER-III's own form, a memory card, parameters of the control. The parser of
+// ladder text reports its own.
+bool checkKind(const network::Language& language, const SourceManager& sources, FileId file, Diagnostics& diagnostics) {
+  const std::string_view text = sources.text(file);
+  if (network::isLadder(language, sources, file)) return true;
+  if (isMnemonicFile(text) && !checkBytes(sources, file, diagnostics)) return false;
+  const std::optional<std::string> foreign = foreignFile(text);
+  if (foreign) diagnostics.report(diag::ForeignFile, sources.range(file, 0, 0)) << sources.name(file) << *foreign;
+  return !foreign;
+}
+
 class FanucProgram : public frontend::CheckedProgram {
 public:
   FanucProgram(SourceManager& sources, std::span<const FileId> files, const frontend::CompileOptions& options,
@@ -73,6 +97,7 @@ public:
     if (files_.empty()) return;
     network::checkConfig(options_, pagesOf(pmcOf(context_.language)), nc::fanucConfigKeys(), context_.diagnostics);
     if (!checkFiles()) return;
+    checkEnd();
     network::Reading reading(context_, program_);
     for (const auto& mnemonic : mnemonics_) reading.add(mnemonic->file(), mnemonic);
     const bool understood = reading.read();
@@ -96,6 +121,7 @@ public:
 
 private:
   bool checkFiles();
+  void checkEnd();
   void checkCounters();
 
   const std::vector<FileId> files_;
@@ -106,19 +132,23 @@ private:
   std::vector<Message> messages_;
 };
 
-// Reports files that are something else: LADDER-III's own form, a memory card, parameters of the control. The parser of
-// ladder text reports its own.
 bool FanucProgram::checkFiles() {
   bool good = true;
-  for (const FileId file : files_) {
-    if (network::isLadder(context_.language, context_.sources, file)) continue;
-    if (const std::optional<std::string> foreign = foreignFile(context_.sources.text(file))) {
-      context_.diagnostics.report(diag::ForeignFile, context_.sources.range(file, 0, 0))
-          << context_.sources.name(file) << *foreign;
-      good = false;
-    }
-  }
+  for (const FileId file : files_)
+    if (!checkKind(context_.language, context_.sources, file, context_.diagnostics)) good = false;
   return good;
+}
+
+// One file may begin and another one end what the control's tools read one after the other (§1.2).
+void FanucProgram::checkEnd() {
+  const auto first = std::ranges::find_if(mnemonics_, [](const auto& file) { return file->begins(); });
+  const bool isClosed = std::ranges::all_of(
+      mnemonics_, [](const auto& file) { return std::ranges::all_of(file->sections(), &Section::isClosed); });
+  if (first == mnemonics_.end() || !isClosed ||
+      std::ranges::any_of(mnemonics_, [](const auto& file) { return file->ends(); }))
+    return;
+  const SourceRange last = network::lastLineOf(context_.sources, files_.back());
+  context_.diagnostics.report(diag::IncompleteFile, last) << "%@A is not followed by %@E";
 }
 
 // F17.
@@ -143,6 +173,7 @@ std::unique_ptr<frontend::CheckedProgram> check(SourceManager& sources, std::spa
 }
 
 std::optional<std::string> format(SourceManager& sources, FileId file, Diagnostics& diagnostics) {
+  if (!checkKind(languageOf(Pmc::MemB), sources, file, diagnostics)) return std::nullopt;
   return network::format(languageOf(Pmc::MemB), sources, file, diagnostics);
 }
 

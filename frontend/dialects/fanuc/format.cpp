@@ -69,7 +69,7 @@ std::optional<std::string> formatMnemonic(const network::Language& language, Sou
     if (!checkEncoding(sources, file, diagnostics)) return std::nullopt;
   Formatter formatter(language, sources, file);
   std::vector<bool> isLadder(sources.lineCount(file) + 2, false);
-  for (const Section& section : sectionsOf(sources, file))
+  for (const Section& section : sectionsOf(sources, file).list)
     if (section.kind == Section::Kind::Ladder)
       std::fill(isLadder.begin() + section.first, isLadder.begin() + std::min<size_t>(section.last, isLadder.size()),
                 true);

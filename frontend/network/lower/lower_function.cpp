@@ -37,6 +37,11 @@ ir::Window Lowering::window(const Address& address, uint32_t bytes, uint32_t leg
 
 const Language& Lowering::language() const { return module_.language(); }
 
+std::optional<bool> Lowering::constantOf(size_t condition) const {
+  if (module_.execution().constants.empty()) return std::nullopt;
+  return constantCondition(language(), network, condition);
+}
+
 Address Lowering::result(uint32_t offset) const { return plus(module_.execution().results, offset); }
 
 uint32_t Lowering::room(const Address& address) const { return language().at(address.area).room(address.byte); }

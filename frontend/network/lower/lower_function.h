@@ -2,6 +2,7 @@
 // functions use. The function determines the output bit W; coils are lowered separately.
 #pragma once
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -36,6 +37,8 @@ public:
   int variant() const { return loweredRow(*function.row).variant; }
   const Param& param(size_t i) const { return function.params[i]; }
   ir::ValueId condition(size_t i) const { return conditions_[i]; }
+  // Its value if it never changes.
+  std::optional<bool> constantOf(size_t condition) const;
   ir::ValueId act() const { return conditions_.back(); }
   // The integer type with the number of bytes of the format.
   ir::Type dataType() const { return ir::intOfBytes(function.length); }

@@ -64,7 +64,8 @@ std::vector<ir::ValueId> ModuleLowering::lowerLogic(LevelState& level, ir::RungB
     }
     const std::optional<bool> constant = execution_.constantAt(step.bit);
     if (!constant) level.use(step.bit, 1);
-    ir::ValueId value = constant ? b.bit(*constant) : b.load(ir::Type::Bit, level.placeOf(step.bit));
+    const ir::Place place = level.placeOf(step.bit);
+    ir::ValueId value = constant ? b.constantBit(place, *constant) : b.load(ir::Type::Bit, place);
     if (step.contact == Contact::Closed) value = b.not_(value);
     if (step.contact == Contact::Falling)
       value = frontend::pulse(b, slot(edgeKeys_.at(&step), ir::Type::Bit, 0, false), value, frontend::kFalling);

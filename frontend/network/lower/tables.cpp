@@ -151,6 +151,7 @@ void lowerIndexedMove(Lowering& f) {
     const ValueId last = count == 1 ? index : b.add(index, b.i32(count - 1)); // in the area, so it does not wrap
     const ValueId legal = b.and_(b.ltU(last, unsignedWord(f, 1, Type::I32)), exists);
     const ValueId write = f.condition(0);
+    const std::optional<bool> writes = f.constantOf(0);
     const auto data = [&](uint32_t i) { return plus(f.param(3).address, i * f.function.length); };
     const auto place = [&](uint32_t i) { return byteIndex(f, i == 0 ? index : b.add(index, b.i32(i))); };
     const auto isInput = [&](size_t i) { return f.language().at(f.param(i).address.area).use == AreaUse::Input; };
@@ -160,8 +161,8 @@ void lowerIndexedMove(Lowering& f) {
     const auto load = [&] {
       for (uint32_t i = 0; i < count; ++i) f.store(data(i), b.loadAt(f.dataType(), tableWindow(f, table), place(i)));
     };
-    if (!isInput(2)) b.when(b.and_(legal, write), store);
-    if (!isInput(3)) b.when(b.and_(legal, b.not_(write)), load);
+    if (!isInput(2) && writes != false) b.when(b.and_(legal, write), store);
+    if (!isInput(3) && writes != true) b.when(b.and_(legal, b.not_(write)), load);
     return b.not_(legal);
   });
 }

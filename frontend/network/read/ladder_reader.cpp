@@ -417,9 +417,10 @@ void LadderReader::module(const ladder::Module& module, std::string_view comment
     unit_ = units_.openLevel(*level, module.range);
   } else if (module.name.size() == 2 && text::equalsIgnoringCase(module.name[0].text, language.subprogram)) {
     // The subprogram's number is checked like the operand of SP.
-    Function sp{.row = &language.rowOf(Control::Sp), .range = module.range};
+    Network sp{.function = {.row = &language.rowOf(Control::Sp), .range = module.range}};
     if (checkFunction(context_, {module.name[1]}, {}, sp))
-      unit_ = units_.openSubprogram(static_cast<uint32_t>(sp.params[0].value), module.range, module.name[1].range);
+      unit_ =
+          units_.openSubprogram(static_cast<uint32_t>(sp.function.params[0].value), module.range, module.name[1].range);
     condition = this->condition();
   } else {
     context_.diagnostics.report(diag::MalformedStatement, module.range) << "module" << modulesText(language);
@@ -484,7 +485,8 @@ void LadderReader::readOperands(const ladder::Rung& rung, const Element& element
   const auto table = std::ranges::find_if(
       words, [&](const Word& word) { return beginsTable(context_, *function.row, word, index++); });
   const auto rows = table == words.end() ? words.end() : table + 1;
-  checkFunction(context_, {words.begin(), table}, {rows, words.end()}, function);
+  Network network{.function = std::move(function)};
+  checkFunction(context_, {words.begin(), table}, {rows, words.end()}, network);
 }
 
 } // namespace

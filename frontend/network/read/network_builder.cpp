@@ -261,7 +261,7 @@ void NetworkBuilder::completeFunction() {
     context_.diagnostics.report(diag::MissingOutput, network_.function.range) << row->info.mnemonic;
     network_.bad = true;
   }
-  if (!checkFunction(context_, parameters_, table_, network_.function)) network_.bad = true;
+  if (!checkFunction(context_, parameters_, table_, network_)) network_.bad = true;
 }
 
 void NetworkBuilder::finish() {

@@ -75,8 +75,9 @@ private:
   std::string_view pendingTitle_;
 };
 
-// Fills in parameters, table and length according to the row. False if there were mistakes, which were all reported.
+// Fills in parameters, table and length of the network's function according to its row. False if there were mistakes,
+// which were all reported.
 bool checkFunction(Context& context, const std::vector<Word>& parameters, const std::vector<Word>& table,
-                   Function& function);
+                   Network& network);
 
 } // namespace rung::frontend::network

@@ -37,12 +37,15 @@ bool fits(int64_t value, uint32_t length) {
 
 // Whether the operand is one number; the cells of a block or table may have names of their own.
 bool isVariable(const OperandKind& kind) {
-  return !kind.rest && (kind.length == Length::OfKind || kind.length == Length::OfFormat);
+  const bool isNumber =
+      kind.length == Length::OfKind || kind.length == Length::OfFormat || kind.length == Length::OfDigits;
+  return isNumber && !kind.rest;
 }
 
 class ParameterCheck {
 public:
-  ParameterCheck(Context& context, Function& function) : context_(context), function_(function) {}
+  ParameterCheck(Context& context, Network& network)
+      : context_(context), network_(network), function_(network.function) {}
 
   bool check(const std::vector<Word>& words);
   bool checkTable(const std::vector<Word>& rows, bool capacityKnown);
@@ -62,16 +65,35 @@ private:
   bool checkPlace(const Word& word, const OperandKind& kind);
   bool checkAddress(const OperandInfo& info, const Word& word, Param& param);
   void noteSibling(DiagBuilder& report, size_t parameters) const;
+  std::optional<bool> conditionOf(int8_t index) const;
+  Access accessOf(const OperandInfo& info) const;
+  uint32_t digitBytes() const { return conditionOf(function_.row->wide) == false ? 1 : 2; }
   uint32_t lengthOf(const OperandKind& kind) const;
   int64_t mostOf(const OperandInfo& info) const;
   std::string expectedBy(const OperandKind* kind, std::string_view expected) const;
 
   Context& context_;
+  const Network& network_; // with its conditions
   Function& function_;
   bool lengthKnown_ = true;
   bool constantOperand_ = false;
   uint32_t blockLength_ = 1;
 };
+
+// Of a condition of the function that never changes.
+std::optional<bool> ParameterCheck::conditionOf(int8_t index) const {
+  if (index < 0) return std::nullopt;
+  return constantCondition(context_.language, network_, static_cast<size_t>(index));
+}
+
+// Of a table and the data beside it, one is only read and the other one only written if the direction never changes.
+Access ParameterCheck::accessOf(const OperandInfo& info) const {
+  const std::optional<bool> writes = conditionOf(function_.row->direction);
+  if (info.access != Access::ReadWrite || !writes) return info.access;
+  const auto operands = function_.row->info.operands.all();
+  const bool isTable = &info == &*std::ranges::find(operands, Access::ReadWrite, &OperandInfo::access);
+  return isTable == *writes ? Access::Write : Access::Read;
+}
 
 uint32_t ParameterCheck::lengthOf(const OperandKind& kind) const {
   switch (kind.length) {
@@ -81,6 +103,8 @@ uint32_t ParameterCheck::lengthOf(const OperandKind& kind) const {
   case Length::OfCount: return lengthKnown_ ? function_.count : 1;
   case Length::OfNumber: return blockLength_;
   case Length::OfRow: return function_.row->recordBytes;
+  case Length::OfDigits: return digitBytes();
+  case Length::OfDigitTable: return digitBytes() * blockLength_;
   }
   return 1;
 }
@@ -244,14 +268,15 @@ bool ParameterCheck::checkAddress(const OperandInfo& info, const Word& word, Par
   const uint32_t length = std::min(most, context_.language.at(address->area).room(address->byte));
   param.isAddress = true;
   param.address = *address;
+  param.access = accessOf(info);
   context_.analysis.use({.range = word.range,
                          .base = address->name,
                          .place = placeOf(context_.language, *address, length),
-                         .access = info.access,
+                         .access = param.access,
                          .isVariable = isVariable(*param.kind)});
   param.bytes = param.kind->rest ? context_.language.at(address->area).room(address->byte) : length;
-  const bool maybeRead = info.access == Access::ReadWrite && function_.row->direction >= 0; // the dialect checks it
-  return info.access == Access::Read || maybeRead || checkWritable(context_, *address, length, word.range);
+  const uint32_t written = function_.row->direction < 0 ? length : param.bytes;
+  return param.access == Access::Read || checkWritable(context_, *address, written, word.range);
 }
 
 // Whether the operand was already rejected where it was read; its range is then invalid.
@@ -344,10 +369,10 @@ bool ParameterCheck::checkTable(const std::vector<Word>& rows, bool capacityKnow
 } // namespace
 
 bool checkFunction(Context& context, const std::vector<Word>& parameters, const std::vector<Word>& table,
-                   Function& function) {
-  ParameterCheck check(context, function);
+                   Network& network) {
+  ParameterCheck check(context, network);
   const bool good = check.check(parameters);
-  return function.row->hasTable ? check.checkTable(table, good) : good;
+  return network.function.row->hasTable ? check.checkTable(table, good) : good;
 }
 
 } // namespace rung::frontend::network

@@ -58,6 +58,17 @@ TEST_F(Collecting, SaysWhatIsMissing) {
   EXPECT_THAT(collected.diagnostics, HasSubstr("\"include-not-found\""));
 }
 
+TEST_F(Collecting, SaysWhatAFileOfAnotherKindIs) {
+  write("mill.LAD", std::string("\1\0\2\0LEVEL1.#LR\0", 16));
+  const Collected binary = collect({path("mill.LAD")});
+  EXPECT_FALSE(binary.sources);
+  EXPECT_THAT(binary.report, HasSubstr("mill.LAD' is a LADDER-III project (.LAD), which is binary"));
+  EXPECT_THAT(binary.diagnostics, HasSubstr("\"foreign-file\""));
+  write("mill.pmc", "%@3\nRD X8.4\nWRT G8.4\nSUB 1\nSUB 2\nSUB 64\n%\n");
+  EXPECT_THAT(collect({path("mill.pmc")}).report,
+              HasSubstr("mill.pmc' is a mnemonic file of a FANUC control: name it .mne, or say --dialect fanuc"));
+}
+
 TEST_F(Collecting, TakesTheProjectOfAFile) {
   write("main.pmc", "FUNC END1\nLD X0.0\nOUT Y0.0\nFUNC END2\n");
   write("rung.toml", "dialect = \"gsk\"\nfiles = [\"main.pmc\"]\nconfig.slot_steps = 500\n");

@@ -53,6 +53,16 @@ TEST(Uses, EachUseOnceInOrder) {
                           Use{bits(1, 128, 16), Type::I16, true, false}, Use{bits(0, 10, 1), Type::Bit, true, false}));
 }
 
+TEST(Uses, BitsThatNeverChangeAreReadWithoutAnOperation) {
+  const Uses uses(moduleOf("routine R {\n" +
+                           rung(0, "    reads X[1.2]\n    reads X[1.2]\n    reads D[3.17]\n    %0:bit = const 1\n"
+                                   "    store.bit X[0.0], %0\n") +
+                           "}\n"));
+  EXPECT_THAT(uses.of(0),
+              ElementsAre(Use{bits(0, 10, 1), Type::Bit, false, false}, Use{bits(1, 113, 1), Type::Bit, false, false},
+                          Use{bits(0, 0, 1), Type::Bit, true, false}));
+}
+
 // A coil that sets its bit depends on nothing that it finds there; a contact of the same rung does.
 TEST(Uses, WhatAConditionalWritePutsBackIsKept) {
   const std::string set = "    %0:bit = load X[0.0]\n    %1:bit = const 1\n    %2:bit = load X[1.2]\n"

@@ -32,12 +32,12 @@ bool equal(const Transfer& a, const Transfer& b) {
 }
 
 bool equal(const Rung& a, const Rung& b) {
-  const auto& [number, title, sourceText, begin, lastLine, key, copy, weight, ops, args, values, notes, transfer,
-               transferLine, origin] = a;
+  const auto& [number, title, sourceText, begin, lastLine, key, copy, weight, constantBits, ops, args, values, notes,
+               transfer, transferLine, origin] = a;
   return number == b.number && title == b.title && sourceText == b.sourceText && equal(begin, b.begin) &&
-         lastLine == b.lastLine && key == b.key && copy == b.copy && weight == b.weight && equalAll(ops, b.ops) &&
-         args == b.args && values == b.values && notes == b.notes && equal(transfer, b.transfer) &&
-         transferLine == b.transferLine && origin == b.origin;
+         lastLine == b.lastLine && key == b.key && copy == b.copy && weight == b.weight &&
+         constantBits == b.constantBits && equalAll(ops, b.ops) && args == b.args && values == b.values &&
+         notes == b.notes && equal(transfer, b.transfer) && transferLine == b.transferLine && origin == b.origin;
 }
 
 bool equal(const Routine& a, const Routine& b) {

@@ -62,6 +62,10 @@ TEST(Source, ADosMarkEndsAFile) {
   const FileId file = sources.addBytes("a.lad", "one\n\x1A\x1A rest");
   EXPECT_EQ(sources.text(file), "one\n");
   EXPECT_EQ(sources.bytesOf(file, "two\n"), "two\n\x1A\x1A rest");
+  EXPECT_EQ(sources.textAfterEnd(file), 6u);
+  EXPECT_EQ(sources.textAfterEnd(sources.addBytes("b.lad", "one\n\x1A")), 0u);
+  EXPECT_EQ(sources.textAfterEnd(sources.addBytes("c.lad", std::string("one\n\x1A\x1A\r\n\0", 9))), 0u);
+  EXPECT_EQ(sources.textAfterEnd(sources.addBytes("d.lad", "one\n")), 0u);
 }
 
 TEST(Source, EmptyFileHasOnePosition) {

@@ -56,21 +56,6 @@ void checkPreset(network::Context& context, const network::Network& network) {
       << preset->value << fmt::format("0 to {}", most) << network.function.row->info.mnemonic;
 }
 
-// A table and the data beside it may be inputs where a constant condition says that they are only read.
-void checkDirection(network::Context& context, const network::Network& network) {
-  const network::Function& function = network.function;
-  const auto condition = static_cast<size_t>(function.row->direction);
-  const std::optional<bool> writes = constantCondition(context.language, network, condition);
-  bool isTable = true; // the first one of the two
-  for (size_t i = 0; i < function.params.size(); ++i) {
-    if (function.row->info.operands[i].access != frontend::Access::ReadWrite) continue;
-    const bool isOnlyRead = writes && *writes != isTable;
-    if (const network::Param* param = goodParam(function, i); param != nullptr && !isOnlyRead)
-      checkWritable(context, param->address, param->bytes, param->range);
-    isTable = false;
-  }
-}
-
 // Constants of more than two digits where BYT is always 0: that of NUME, the rows of COD.
 void checkCut(network::Context& context, const network::Network& network) {
   constexpr int64_t kMost = 99;

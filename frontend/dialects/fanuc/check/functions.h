@@ -8,7 +8,6 @@ namespace rung::frontend::fanuc {
 void checkAxisGroup(network::Context& context, const network::Network& network);     // of AXCTL
 void checkDecodedDigits(network::Context& context, const network::Network& network); // of DEC
 void checkPreset(network::Context& context, const network::Network& network);        // of a timer with a fixed preset
-void checkDirection(network::Context& context, const network::Network& network);     // of a row with a direction
 void checkCut(network::Context& context, const network::Network& network);           // of constants in BCD
 
 } // namespace rung::frontend::fanuc

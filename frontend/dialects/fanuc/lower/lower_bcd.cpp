@@ -1,5 +1,6 @@
 // Functions on BCD digits (inventory §6.4-§6.8): BYT says in each run whether a number has two digits in one byte or
 // four in two. Digits above 9 count as their value.
+#include <optional>
 #include <string>
 
 #include "frontend/dialects/fanuc/lower/lower.h"
@@ -17,11 +18,12 @@ constexpr int64_t kTwoDigits = 100, kFourDigits = 10'000;
 // Numbers of two or four digits, by the condition BYT.
 class Digits {
 public:
-  Digits(Lowering& f, ValueId four) : f_(f), b_(f.b), four_(four) {}
+  Digits(Lowering& f, size_t byt) : f_(f), b_(f.b), four_(f.condition(byt)), isFour_(f.constantOf(byt)) {}
 
   // The byte or the two bytes of a parameter as they are, in an i16. A second byte that does not exist is 0.
   ValueId bits(size_t i) {
     const Address& address = f_.param(i).address;
+    if (isFour_ == true && !isByte(i)) return f_.load(Type::I16, address);
     const ValueId low = b_.zextOrTrunc(Type::I16, f_.load(Type::I8, address));
     return isByte(i) ? low : b_.select(four_, f_.load(Type::I16, address), low);
   }
@@ -29,6 +31,7 @@ public:
     const Address& address = f_.param(i).address;
     const auto low = [&] { f_.store(address, b_.trunc(Type::I8, bits)); };
     if (isByte(i)) return low();
+    if (isFour_ == true) return f_.store(address, bits);
     b_.when(four_, [&] { f_.store(address, bits); }, low);
   }
   // As a number, in an i32.
@@ -43,20 +46,21 @@ public:
   ValueId operand(size_t i) { return f_.param(i).isAddress ? number(i) : b_.constant(Type::I32, f_.param(i).value); }
 
 private:
-  // The last one of its area.
-  bool isByte(size_t i) const { return f_.param(i).bytes == 1; }
+  // Of two digits, or the last one of its area.
+  bool isByte(size_t i) const { return isFour_ == false || f_.param(i).bytes == 1; }
 
   Lowering& f_;
   ir::RungBuilder& b_;
   ValueId four_;
+  std::optional<bool> isFour_; // if it never changes
 };
 
 // An element of a table, which begins at a parameter; its number must be below `count`.
 class Elements {
 public:
-  Elements(Lowering& f, size_t table, ValueId four)
-      : b_(f.b), four_(four), bytes_(f.room(f.param(table).address)),
-        window_(f.window(f.param(table).address, bytes_, bytes_)), digits_(f, four) {}
+  Elements(Lowering& f, size_t table, size_t byt)
+      : b_(f.b), four_(f.condition(byt)), isFour_(f.constantOf(byt)), bytes_(f.param(table).bytes),
+        window_(f.window(f.param(table).address, bytes_, bytes_)), digits_(f, byt) {}
 
   // As many as there are: of those given, what lies in the area.
   ValueId count(int64_t given) {
@@ -67,12 +71,14 @@ public:
   ValueId load(ValueId element) {
     const ValueId at = b_.mul(element, digits_.bytes());
     const ValueId low = byte(at);
+    if (isFour_ == false) return low;
     const ValueId high = b_.shl(byte(b_.add(at, b_.i32(1))), b_.i32(8));
     return b_.select(four_, b_.or_(low, high), low);
   }
   void store(ValueId element, ValueId bits) {
     const ValueId at = b_.mul(element, digits_.bytes());
     b_.storeAt(window_, at, b_.trunc(Type::I8, bits));
+    if (isFour_ == false) return;
     b_.when(four_, [&] { b_.storeAt(window_, b_.add(at, b_.i32(1)), b_.trunc(Type::I8, b_.shrU(bits, b_.i32(8)))); });
   }
 
@@ -81,6 +87,7 @@ private:
 
   ir::RungBuilder& b_;
   ValueId four_;
+  std::optional<bool> isFour_; // if it never changes
   uint32_t bytes_;
   ir::Window window_;
   Digits digits_;
@@ -102,7 +109,7 @@ void lowerBcdDecode(Lowering& f) {
 void lowerBcdRotation(Lowering& f) {
   f.latchedOutput(f.act(), {}, [&] {
     ir::RungBuilder& b = f.b;
-    Digits digits(f, f.condition(1));
+    Digits digits(f, 1);
     const ValueId base = b.zextOrTrunc(Type::I64, f.condition(0));
     const auto position = [&](size_t i) { return b.sub(b.zextOrTrunc(Type::I64, digits.number(i)), base); };
     const ValueId count = b.constant(Type::I64, f.param(0).value);
@@ -128,7 +135,7 @@ void lowerBcdTable(Lowering& f) {
   }
   f.resettable([&] {
     ir::RungBuilder& b = f.b;
-    Digits digits(f, f.condition(0));
+    Digits digits(f, 0);
     const ValueId index = b.zextOrTrunc(Type::I32, b.bcdDecode(f.load(Type::I8, f.param(1).address)));
     const ValueId legal = b.ltU(index, b.i32(static_cast<uint32_t>(f.function.table.size())));
     b.when(legal, [&] {
@@ -143,7 +150,7 @@ void lowerBcdTable(Lowering& f) {
 void lowerBcdConversion(Lowering& f) {
   f.resettable([&] {
     ir::RungBuilder& b = f.b;
-    Digits digits(f, f.condition(0));
+    Digits digits(f, 0);
     const ValueId source = digits.bits(0);
     const auto finish = [&](ValueId error, ValueId result) {
       b.when(b.not_(error), [&] { digits.storeBits(1, result); });
@@ -164,7 +171,7 @@ void lowerBcdConversion(Lowering& f) {
 // Conditions BYT, ACT.
 void lowerBcdCompare(Lowering& f) {
   f.latchedOutput(f.act(), {}, [&] {
-    Digits digits(f, f.condition(0));
+    Digits digits(f, 0);
     return frontend::compare(f.b, f.variant(), digits.operand(1), digits.number(2));
   });
 }
@@ -173,11 +180,11 @@ void lowerBcdCompare(Lowering& f) {
 void lowerBcdSearch(Lowering& f) {
   f.resettable([&] {
     ir::RungBuilder& b = f.b;
-    Digits digits(f, f.condition(0));
-    Elements elements(f, 1, f.condition(0));
+    Digits digits(f, 0);
+    Elements elements(f, 1, 0);
     const ValueId count = elements.count(f.param(0).value);
     const ValueId searched = digits.bits(2);
-    const auto most = static_cast<uint32_t>(std::min<int64_t>(f.param(0).value, f.room(f.param(1).address)));
+    const auto most = static_cast<uint32_t>(std::min<int64_t>(f.param(0).value, f.param(1).bytes));
     const ValueId none[] = {b.bit(false), b.i32(0)};
     const auto inside = b.loop(most, none);
     const ValueId element = b.sub(b.i32(most - 1), inside[0]);
@@ -193,16 +200,18 @@ void lowerBcdSearch(Lowering& f) {
 void lowerBcdIndexedMove(Lowering& f) {
   f.resettable([&] {
     ir::RungBuilder& b = f.b;
-    Digits digits(f, f.condition(0));
-    Elements elements(f, 1, f.condition(0));
+    Digits digits(f, 0);
+    Elements elements(f, 1, 0);
     const ValueId index = digits.number(3);
     const ValueId legal = b.ltU(index, elements.count(f.param(0).value));
     const ValueId write = f.condition(1);
+    const std::optional<bool> writes = f.constantOf(1);
     const auto isInput = [&](size_t i) {
       return f.language().at(f.param(i).address.area).use == network::AreaUse::Input;
     };
-    if (!isInput(1)) b.when(b.and_(legal, write), [&] { elements.store(index, digits.bits(2)); });
-    if (!isInput(2)) b.when(b.and_(legal, b.not_(write)), [&] { digits.storeBits(2, elements.load(index)); });
+    if (!isInput(1) && writes != false) b.when(b.and_(legal, write), [&] { elements.store(index, digits.bits(2)); });
+    if (!isInput(2) && writes != true)
+      b.when(b.and_(legal, b.not_(write)), [&] { digits.storeBits(2, elements.load(index)); });
     return b.not_(legal);
   });
 }
@@ -211,7 +220,7 @@ void lowerBcdIndexedMove(Lowering& f) {
 void lowerBcdArithmetic(Lowering& f) {
   f.resettable([&] {
     ir::RungBuilder& b = f.b;
-    Digits digits(f, f.condition(0));
+    Digits digits(f, 0);
     const ValueId first = digits.number(1), second = digits.operand(2);
     const auto stored = [&](ValueId value) {
       digits.store(3, value);
@@ -229,7 +238,7 @@ void lowerBcdArithmetic(Lowering& f) {
 
 // Conditions BYT, ACT.
 void lowerBcdNumber(Lowering& f) {
-  f.b.when(f.act(), [&] { Digits(f, f.condition(0)).store(1, f.b.constant(Type::I32, f.param(0).value)); });
+  f.b.when(f.act(), [&] { Digits(f, 0).store(1, f.b.constant(Type::I32, f.param(0).value)); });
 }
 
 } // namespace rung::frontend::fanuc

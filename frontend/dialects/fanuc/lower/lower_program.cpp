@@ -53,12 +53,10 @@ private:
     for (const network::LogicStep& step : network.logic)
       if (step.kind != network::Logic::OrBlock && step.kind != network::Logic::AndBlock) mark(read_, step.bit, 1);
     for (const network::CoilStep& coil : network.coils) mark(written_, coil.bit, 1);
-    const network::Function& function = network.function;
-    for (size_t i = 0; i < function.params.size(); ++i) {
-      if (!function.params[i].isAddress) continue;
-      const frontend::Access access = function.row->info.operands[i].access;
-      if (access != frontend::Access::Write) mark(read_, function.params[i].address, function.params[i].bytes);
-      if (access != frontend::Access::Read) mark(written_, function.params[i].address, function.params[i].bytes);
+    for (const network::Param& param : network.function.params) {
+      if (!param.isAddress) continue;
+      if (param.access != frontend::Access::Write) mark(read_, param.address, param.bytes);
+      if (param.access != frontend::Access::Read) mark(written_, param.address, param.bytes);
     }
   }
 

@@ -19,6 +19,7 @@
 #include "frontend/network/read/units.h"
 #include "ir/support/diag/operand.h"
 #include "ir/support/diag/pmc.h"
+#include "ir/support/diag/source.h"
 #include "ir/support/diag/structure.h"
 #include "rtlib/text/blanks.h"
 #include "rtlib/text/letters.h"
@@ -410,14 +411,18 @@ void MnemonicFile::readDeclarations(Context& context) const {
   const SymbolSink sink{
       [&](const Word& name, const Word& place, const Comments& comments) { addSymbol(context, name, place, comments); },
       [](std::string_view) {}};
-  for (const Section& section : sections_)
+  for (const Section& section : sections())
     if (hasSymbols(section)) readSymbols(context.sources, context.diagnostics, file(), section, sink);
 }
 
 void MnemonicFile::read(Context& context, network::UnitAssembler& units) const {
   SectionKeeper keeper(context, file());
-  if (context.gaps.areKept() && !sections_.empty()) keeper.head(sections_.front());
-  for (const Section& section : sections_) {
+  if (context.gaps.areKept() && !sections().empty()) keeper.head(sections().front());
+  for (const Section& section : sections()) {
+    if (!section.isClosed)
+      context.diagnostics.report(diag::IncompleteFile, section.range)
+          << fmt::format("the section {} does not end with a line that is %",
+                         section.code.substr(0, section.code.find_first_of("( \t")));
     if (section.kind == Section::Kind::Unknown)
       context.diagnostics.report(diag::UnknownSection, section.range) << section.code;
     if (section.kind == Section::Kind::Outside) context.diagnostics.report(diag::TextOutsideSection, section.range);

@@ -23,13 +23,15 @@ bool isNetworkNumber(std::string_view word);
 class MnemonicFile final : public network::ListFile {
 public:
   MnemonicFile(const SourceManager& sources, FileId file) : ListFile(file), sections_(sectionsOf(sources, file)) {}
-  std::span<const Section> sections() const { return sections_; }
+  std::span<const Section> sections() const { return sections_.list; }
+  bool begins() const { return sections_.begins; }
+  bool ends() const { return sections_.ends; }
   // The symbols and the ladders of all sections.
   void readDeclarations(network::Context& context) const override;
   void read(network::Context& context, network::UnitAssembler& units) const override;
 
 private:
-  std::vector<Section> sections_;
+  FileSections sections_;
 };
 
 using MnemonicFiles = std::vector<std::shared_ptr<const MnemonicFile>>;

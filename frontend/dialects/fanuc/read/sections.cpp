@@ -45,22 +45,25 @@ class SectionFinder {
 public:
   void line(const SourceLine& line) {
     const std::string_view text = text::trimmed(line.text);
-    if (text == "%") return end(line.number);
+    if (text == "%") return end(line.number, true);
     const size_t at = static_cast<size_t>(text.data() - line.text.data());
     const SourceRange range = line.range(at, at + text.size());
     if (!text.starts_with("%@")) return otherLine(text, range, line.number);
-    end(line.number);
+    end(line.number, false);
     const std::string code = text::upper(text);
     sawCode_ = true;
     isOutside_ = false;
-    if (code.starts_with("%@A") || code.starts_with("%@E")) return;
-    sections_.push_back({.kind = kindOf(code), .code = text, .range = range, .first = line.number + 1, .last = 0});
+    const bool begins = code.starts_with("%@A"), ends = code.starts_with("%@E");
+    sections_.begins |= begins;
+    sections_.ends |= ends;
+    if (begins || ends) return;
+    sections_.list.push_back({.kind = kindOf(code), .code = text, .range = range, .first = line.number + 1, .last = 0});
     open_ = true;
   }
 
-  std::vector<Section> take(uint32_t lines) {
-    end(lines + 1);
-    if (!sawCode_) sections_.push_back({.kind = Kind::Ladder, .first = 1, .last = lines + 1});
+  FileSections take(uint32_t lines) {
+    end(lines + 1, false);
+    if (!sawCode_) sections_.list.push_back({.kind = Kind::Ladder, .first = 1, .last = lines + 1});
     return std::move(sections_);
   }
 
@@ -69,14 +72,15 @@ private:
   void otherLine(std::string_view text, SourceRange range, uint32_t number) {
     if (open_ || !sawCode_ || isOutside_ || text.empty() || text[0] == ';') return;
     isOutside_ = true;
-    sections_.push_back({.kind = Kind::Outside, .range = range, .first = number, .last = number + 1});
+    sections_.list.push_back({.kind = Kind::Outside, .range = range, .first = number, .last = number + 1});
   }
-  void end(uint32_t line) {
-    if (open_) sections_.back().last = line;
+  void end(uint32_t line, bool isClosed) {
+    if (open_) sections_.list.back().last = line;
+    if (open_) sections_.list.back().isClosed = isClosed;
     open_ = false;
   }
 
-  std::vector<Section> sections_;
+  FileSections sections_;
   bool open_ = false;
   bool sawCode_ = false;
   bool isOutside_ = false; // the text since the last section has been noted
@@ -84,7 +88,7 @@ private:
 
 } // namespace
 
-std::vector<Section> sectionsOf(const SourceManager& sources, FileId file) {
+FileSections sectionsOf(const SourceManager& sources, FileId file) {
   SectionFinder finder;
   const uint32_t lines = sources.lineCount(file);
   for (uint32_t number = 1; number <= lines; ++number) finder.line(lineOf(sources, file, number));

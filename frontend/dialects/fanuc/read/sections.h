@@ -19,6 +19,13 @@ struct Section {
   SourceRange range;         // of the line with the code; of Outside its first line
   uint32_t first = 0;        // its lines, without those with its code and its end: first to last - 1
   uint32_t last = 0;
+  bool isClosed = true; // by a line that is %
+};
+
+struct FileSections {
+  std::vector<Section> list;
+  bool begins = false; // with %@A
+  bool ends = false;   // with %@E
 };
 
 inline bool hasSymbols(const Section& section) {
@@ -26,7 +33,7 @@ inline bool hasSymbols(const Section& section) {
 }
 
 // A file without any code is one section of ladder. The text before the first code is a comment.
-std::vector<Section> sectionsOf(const SourceManager& sources, FileId file);
+FileSections sectionsOf(const SourceManager& sources, FileId file);
 
 // A line of a file, without blanks and CR at its end.
 SourceLine lineOf(const SourceManager& sources, FileId file, uint32_t number);

@@ -26,10 +26,14 @@ inline constexpr OperandKind kChoice{{"format-01", "0 a constant, 1 an address",
 inline constexpr OperandKind kDigits{{"digits",
                                       "address of two BCD digits in a byte, or of four in two bytes, as BYT says",
                                       "R10", "R10.0", "byte-address-expected"},
-                                     {.bytes = 2, .least = 1}};
+                                     {.length = Length::OfDigits, .least = 1}};
+inline constexpr OperandKind kDigitTable{
+    {"digit-table", "address of the first of as many such BCD numbers as the function has elements", "D10", "D10.0",
+     "byte-address-expected"},
+    {.length = Length::OfDigitTable, .least = 1}};
 inline constexpr OperandKind kNumberOrDigits{
     {"number-or-digits", "constant 0 to 9999 or address, as the format says", "100", "10000", "parameter-out-of-range"},
-    {.constant = true, .bytes = 2, .least = 1}};
+    {.constant = true, .length = Length::OfDigits, .least = 1}};
 inline constexpr OperandKind kByte{{"byte", "byte address or symbol", "R10", "R10.0", "byte-address-expected"}, {}};
 inline constexpr OperandKind kElements{
     {"elements", "address of the first of as many elements as the format says", "R10", "R9999", "address-out-of-range"},

@@ -48,7 +48,12 @@ constexpr Row withCheck(Row row, void (*check)(network::Context& context, const 
 // Moves between a table and a place; the condition with this index is 0 to read the table and 1 to write it.
 constexpr Row withDirection(Row row, int8_t condition) {
   row.direction = condition;
-  return withCheck(row, &checkDirection);
+  return row;
+}
+// The condition with this index is BYT.
+constexpr Row withWidth(Row row, int8_t condition) {
+  row.wide = condition;
+  return row;
 }
 // Numbers of variable timers and counters are as many as their areas hold (inventory §3.3).
 constexpr Row withPlaces(Row row, Row::Places places) {

@@ -143,10 +143,6 @@ private:
   std::array<Known, size_t{8} * kMostBytes> reportedAs_{};
   Look allReported_;     // when all changes had been reported
   Look stated_, states_; // when the states were written: the messages, and the states
-}; // bits of messages as reported to the host
-Look reported_;        // when all changes had been reported
-Look stated_, states_; // when the states were written: the messages, and the states
-uint32_t statedShift_ = 0;
 };
 
 // Nearly all bits are 0, so eight bytes of the block are tested at once.

@@ -29,6 +29,8 @@ def project(text):
 
 # code: files, and the arguments of rungc in their folder
 COMMANDS = {
+    "file-twice": ({"a.pmc": "FUNC 0\nFUNC 1\n"}, "check a.pmc ./a.pmc"),
+    "too-many-files": ({f"{i}.plc": "; one of too many\n" for i in range(65)}, "check " + " ".join(f"{i}.plc" for i in range(65))),
     "misplaced-dialect": ({"a.lad": "dialect nct\nmodule MAIN\ndialect nct\n"}, "check a.lad"),
     "unknown-statement": ({"a.lad": "dialect nct\nmodul MAIN\n"}, "check a.lad"),
     "stray-drawing": ({"a.lad": "dialect nct\nmodule MAIN\n|--[0000.00]--(5100.00)\n"}, "check a.lad"),
@@ -58,6 +60,7 @@ COMMANDS = {
 
 # The same of warnings.
 WARNINGS = {
+    "incomplete-file": ({"a.mne": "%@3\nSUB 1\nSUB 2\n%\n%@2\nLAMP Y0.0\n"}, "check a.mne"),
     "unused-name": ({"a.lad": LAMP.replace("\n\n", "\nsymbol SPARE 5101\n\n")}, "check a.lad"),
     "never-written": ({"a.lad": LAMP.replace("\n\n", "\nsymbol SWITCH 5101.00\n\n").replace("0000.00", "SWITCH")}, "check a.lad"),
     "never-read": ({"a.lad": LAMP.replace("\n\n", "\nsymbol LAMP 5100.00\n\n")}, "check a.lad"),

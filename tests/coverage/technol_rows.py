@@ -14,7 +14,7 @@ CODES = """
 unbalanced-stack stack-underflow stack-overflow undefined-symbol duplicate-symbol reserved-word bad-identifier bad-number bad-string syntax-error
 unknown-instruction unsupported-assembler operand-count operand-range wrong-operand-kind invalid-type-prefix untyped-operand type-mismatch
 write-to-readonly too-many-bits dfm-needs-eight missing-label declaration-outside-data data-not-first missing-module duplicate-module
-module-not-closed module-not-allowed missing-stop code-outside-module too-many-files ex-outside-mechanism mech-name-mismatch mech-not-closed
+module-not-closed module-not-allowed missing-stop code-outside-module ex-outside-mechanism mech-name-mismatch mech-not-closed
 nested-mechanism mech-loop-without-ex jump-crosses-unit proc-name-mismatch proc-not-closed nested-procedure recursive-procedure
 init-only-instruction include-not-found code-in-include macro-not-closed macro-operand-count macro-recursion
 unterminated-equation(w) name-too-long(w) cnts-prefix(w) jlo-alias(w) shared-name(w) reserved-word(w) mixed-real-integer(w) value-not-preserved(w)

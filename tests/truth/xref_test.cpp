@@ -57,6 +57,9 @@ public:
   bool has(uint32_t rung, const BitRange& place, bool writes) {
     const Json& entry = entryOf(place);
     const char* side = writes ? "written" : "read";
+    const rung_info& info = program().rungs[rung];
+    const bool isControls = info.number == 0 && info.file != RUNG_NONE; // the control's, before the rung at its lines
+    if (isControls) return !writes || entry.value("control_writes", false);
     return isIn(entry[side], rung) || isIn(entry[std::string("perhaps_") + side], rung);
   }
   // The direct accesses: rung, place as its address says, and what is printed.

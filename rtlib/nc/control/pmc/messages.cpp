@@ -17,11 +17,23 @@ uint8_t PmcMessages::bitsOf(const runtime::Instance& instance, const Showing& sh
   return showing.display && byte < places_->bytes ? instance.memory().readByte(places_->area, byte) : uint8_t{0};
 }
 
+// Whether none of eight bytes, the first of which has this number, is that of a message reported as shown.
+bool PmcMessages::isNoneReported(uint32_t byte) const noexcept {
+  if (byte % kWord != 0) return false;
+  uint64_t word = 0;
+  std::memcpy(&word, &reported_[byte], sizeof word);
+  return word == 0;
+}
+
 // A message that continues ends, too, if another program or another language gives it another number or text.
 bool PmcMessages::findChange(const runtime::Instance& instance, const Showing& showing, bool begins,
                              rung_message& message) noexcept {
-  for (uint32_t byte = 0; byte < kMostBytes; ++byte) {
-    if (!begins && reported_[byte] == 0) continue;
+  const uint32_t end = begins ? places_->bytes : kMostBytes;
+  for (uint32_t byte = 0; byte < end; ++byte) {
+    if (!begins && isNoneReported(byte)) {
+      byte += kWord - 1;
+      continue;
+    }
     const uint8_t bits = bitsOf(instance, showing, byte);
     uint8_t left = begins ? bits & static_cast<uint8_t>(~reported_[byte]) : reported_[byte];
     for (; left != 0; left &= static_cast<uint8_t>(left - 1)) {

@@ -71,6 +71,9 @@ public:
 
 private:
   static constexpr uint32_t kFirstState = 9000;
+  // Nearly all bits are 0, so eight bytes are tested at once.
+  static constexpr uint32_t kWord = sizeof(uint64_t);
+  static_assert(kMostBytes % kWord == 0);
   // FANUC: the text in another language lies this many A bits further, as the word K918 says.
   static constexpr uint32_t kShiftAt = 918;
   // FANUC's kinds of messages by number: alarms, operator messages, and from kFirstPlain on those without a number.
@@ -85,8 +88,9 @@ private:
     bool operator==(const Showing&) const = default;
   };
   Showing showing(const runtime::Instance& instance) const noexcept {
+    if (!isListed()) return {.display = true};
     const core::Memory memory = instance.memory();
-    Showing now{.display = !isListed()};
+    Showing now;
     if (places_->display != RUNG_NONE) now.display = memory.readByte(places_->display, 0) != 0;
     if (places_->shift != RUNG_NONE) now.shift = static_cast<uint32_t>(memory.read(places_->shift, kShiftAt, 2));
     return now;
@@ -125,6 +129,7 @@ private:
   bool findChange(const runtime::Instance& instance, const Showing& showing, rung_message& message) noexcept;
   bool findChange(const runtime::Instance& instance, const Showing& showing, bool begins,
                   rung_message& message) noexcept;
+  bool isNoneReported(uint32_t byte) const noexcept;
   // A byte of the A area, or 0 if nothing is shown.
   uint8_t bitsOf(const runtime::Instance& instance, const Showing& showing, uint32_t byte) const noexcept;
 
@@ -145,10 +150,8 @@ private:
   Look stated_, states_; // when the states were written: the messages, and the states
 };
 
-// Nearly all bits are 0, so eight bytes of the block are tested at once.
 template <class See>
 bool PmcMessages::forRequested(const uint8_t* block, See see) const {
-  constexpr uint32_t kWord = sizeof(uint64_t);
   for (const Piece& piece : places_->pieces) {
     const uint32_t size = piece.size();
     for (uint32_t at = 0; at < size; at += kWord) {

@@ -57,9 +57,9 @@ void PmcMessages::Places::findStates(const rung_space& space) {
 }
 
 void PmcMessages::Places::readTexts(const rung_program& of) {
-  display = runtime::findSpace(of, "@DISPB");
-  shift = runtime::findSpace(of, "K");
-  if (shift != RUNG_NONE && of.spaces[shift].byte_count < kShiftAt + 2) shift = RUNG_NONE;
+  const core::Memory memory(of, nullptr);
+  display = memory.locate(runtime::findSpace(of, "@DISPB"), 0, 1);
+  shift = memory.locate(runtime::findSpace(of, "K"), kShiftAt, 2);
   for (const rung_message_text& text : std::span(of.texts, of.text_count)) {
     if (text.number == 0 || text.number > 8 * kMostBytes) continue;
     if (text.number > numbers.size()) numbers.resize(text.number);

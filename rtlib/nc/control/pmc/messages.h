@@ -40,8 +40,8 @@ public:
     std::vector<Piece> pieces;
     std::vector<uint8_t> written;  // mask of the bits that rungs write, by byte of the pieces
     std::vector<uint32_t> numbers; // of texts, by the text's number in the program's table - 1; 0: there is none
-    uint32_t display = RUNG_NONE;  // @DISPB
-    uint32_t shift = RUNG_NONE;    // K, if it has the message shift
+    core::Place display;           // @DISPB
+    core::Place shift;             // the message shift in K, if it has one
     std::vector<Piece> states;     // the bytes of the A area whose state the program reads
 
   private:
@@ -90,10 +90,7 @@ private:
   Showing showing(const runtime::Instance& instance) const noexcept {
     if (!isListed()) return {.display = true};
     const core::Memory memory = instance.memory();
-    Showing now;
-    if (places_->display != RUNG_NONE) now.display = memory.readByte(places_->display, 0) != 0;
-    if (places_->shift != RUNG_NONE) now.shift = static_cast<uint32_t>(memory.read(places_->shift, kShiftAt, 2));
-    return now;
+    return {.display = memory.read(places_->display) != 0, .shift = static_cast<uint32_t>(memory.read(places_->shift))};
   }
   // The number and the key of an A bit's text, from 1; the number is 0 for a bit without a text. `key` is the number of
   // the text in the program's table.

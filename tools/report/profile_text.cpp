@@ -25,8 +25,9 @@ DrawnRungs drawnRungs(const ProfileReport& report) {
 namespace {
 
 std::string scansText(const Profile& profile) {
-  if (profile.scenarios.size() == 1) return fmt::format("{}, {} scans", profile.scenarios[0], profile.scans);
-  return fmt::format("{} scenarios, {} scans", profile.scenarios.size(), profile.scans);
+  const char* scans = profile.scans == 0 ? "whole scans" : "scans";
+  if (profile.scenarios.size() == 1) return fmt::format("{}, {} {}", profile.scenarios[0], profile.scans, scans);
+  return fmt::format("{} scenarios, {} {}", profile.scenarios.size(), profile.scans, scans);
 }
 
 std::string headText(const Profile& profile) {
@@ -40,6 +41,10 @@ std::string headText(const Profile& profile) {
 
 // The overhead of the measurement.
 std::string costText(const Profile& profile) {
+  if (profile.scans == 0)
+    return fmt::format("no scan was timed: only the statements scan and run make whole scans; the overhead of {} per "
+                       "rung is already subtracted\n",
+                       durationText(profile.report.clock.costNs()));
   return fmt::format("a scan takes {} ({} while measured); the overhead of {} per rung is already subtracted\n",
                      durationText(profile.deadlines[0].ns.median), durationText(profile.measuredScanNs),
                      durationText(profile.report.clock.costNs()));
@@ -118,7 +123,7 @@ std::string durationText(double ns) {
 
 std::string profileText(const Profile& profile, const ProfileTextOptions& options) {
   std::string text = headText(profile) + costText(profile) + "\n";
-  text += deadlineTable(profile) + "\n";
+  if (profile.scans != 0) text += deadlineTable(profile) + "\n";
   text += worstText("operations", profile.worstByOperations,
                     [](double operations) { return fmt::format("{:.0f} operations", operations); });
   text += worstText("time", profile.worstByTime, durationText) + "\n";

@@ -331,7 +331,8 @@ SUB 64
         said = self.run_rungc("profile", "lamp.scn")[0]
         self.assertIn("lamp.scn, 0 whole scans, ", said)
         self.assertIn("\nno scan was timed: only the statements scan and run make whole scans; ", said)
-        for text in ("a scan takes", "whole scan "):
+        self.assertRegex(said, r"\nLEVEL2 +4 ")
+        for text in ("a scan takes", "whole scan ", "operations in a scan"):
             self.assertNotIn(text, said)
 
     def test_a_number_of_a_message_leads_to_its_bit(self):

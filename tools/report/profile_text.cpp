@@ -10,6 +10,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <span>
 
 namespace rung::report {
 
@@ -58,9 +59,12 @@ std::string deadlineTable(const Profile& profile) {
   std::string text =
       fmt::format("{:<24} {:>8} {:>10} {:>10} {:>10} {:>10}\n", "", "runs", "mean", "median", "p99", "worst");
   const Spread& operations = profile.scanOperations;
-  text += fmt::format("{:<24} {:>8} {:>10.1f} {:>10.0f} {:>10.0f} {:>10.0f}\n", "operations in a scan",
-                      operations.count, operations.mean, operations.median, operations.p99, operations.max);
-  for (const Deadline& deadline : profile.deadlines) {
+  const bool hasScans = profile.scans != 0;
+  if (hasScans)
+    text += fmt::format("{:<24} {:>8} {:>10.1f} {:>10.0f} {:>10.0f} {:>10.0f}\n", "operations in a scan",
+                        operations.count, operations.mean, operations.median, operations.p99, operations.max);
+  // The first is that of scans.
+  for (const Deadline& deadline : std::span(profile.deadlines).subspan(hasScans ? 0 : 1)) {
     const Spread& ns = deadline.ns;
     text += fmt::format("{:<24} {:>8} {:>10} {:>10} {:>10} {:>10}  {}\n", deadline.name, ns.count,
                         durationText(ns.mean), durationText(ns.median), durationText(ns.p99), durationText(ns.max),
@@ -123,7 +127,7 @@ std::string durationText(double ns) {
 
 std::string profileText(const Profile& profile, const ProfileTextOptions& options) {
   std::string text = headText(profile) + costText(profile) + "\n";
-  if (profile.scans != 0) text += deadlineTable(profile) + "\n";
+  text += deadlineTable(profile) + "\n";
   text += worstText("operations", profile.worstByOperations,
                     [](double operations) { return fmt::format("{:.0f} operations", operations); });
   text += worstText("time", profile.worstByTime, durationText) + "\n";

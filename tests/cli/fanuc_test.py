@@ -335,6 +335,16 @@ SUB 64
         for text in ("a scan takes", "whole scan ", "operations in a scan"):
             self.assertNotIn(text, said)
 
+    def test_pins_of_a_template_keep_signs(self):
+        names = {"+J1": "j1-plus", "-J1": "j1-minus", "*+L1": "l1-plus-not", "*-L1": "l1-minus-not", "C2-J1": "c2-j1-minus", "C2*ESP": "c2-esp-not",
+                 "C2-PUMP": "c2-pump"}
+        outputs = "".join(f"G{1100 + at}.0 {name}\n" for at, name in enumerate(names))
+        self.write("axes.mne", LADDER.replace("P1 COUNT\n", outputs + "P1 COUNT\n")
+                   .replace("SUB 2\n", "".join(f"RD START\nWRT {name}\n" for name in names) + "SUB 2\n"))
+        said = self.run_rungc("map", "axes.mne", "--template")[0]
+        for name, pin in names.items():
+            self.assertIn(f'\n{pin} = {{ type = "bit", name = "{name}" }}', said)
+
     def test_a_number_of_a_message_leads_to_its_bit(self):
         self.write("texts.mne", LADDER.replace("SPE\nSUB 64\n%\n", "SPE\nSUB 64\n%\n%@4\nA1.2 1007 DOOR OPEN\n%\n").replace("WRT R2.1", "WRT A1.2"))
         done = subprocess.run([Path(RUNGC).resolve(), "run", "-i", "-q", "texts.mne"], cwd=self.folder, capture_output=True, text=True,

@@ -36,13 +36,34 @@ const char* rungChangeName(uint32_t kind) {
   return kind < std::size(kNames) ? kNames[kind] : "changed";
 }
 
-bool loses(uint32_t kind) {
-  return kind == RUNG_CHANGE_REMOVED || kind == RUNG_CHANGE_RETYPED || kind == RUNG_CHANGE_RELEASED ||
-         kind == RUNG_CHANGE_CUT;
+bool losesState(uint32_t kind) {
+  return kind == RUNG_CHANGE_REMOVED || kind == RUNG_CHANGE_RETYPED || kind == RUNG_CHANGE_CUT;
+}
+
+// What makes a replacement need the user's consent.
+struct Losses {
+  std::vector<std::string> state, outputs; // names; outputs that no rung writes any more
+
+  std::string text() const {
+    std::string said;
+    if (!state.empty()) said = "the new program loses state: " + joined(state, ", ");
+    if (!outputs.empty())
+      said += (said.empty() ? "" : "; ") + ("no rung of the new program writes " + joined(outputs, ", ")) +
+              (outputs.size() == 1 ? " any more: it becomes 0" : " any more: they become 0");
+    return said;
+  }
+};
+
+// A program that is not the machine's has nearly all names wrong.
+std::string misfitsText(const std::vector<std::string>& mistakes) {
+  constexpr size_t kShown = 10;
+  if (mistakes.size() <= kShown) return joined(mistakes, "\n");
+  return joined({mistakes.begin(), mistakes.begin() + kShown}, "\n") + "\nand " +
+         std::to_string(mistakes.size() - kShown) + " more; is this the right program?";
 }
 
 // Report of the state that is lost or changed when the replacement's program takes over.
-json reportOf(const rung_replacement* replacement, std::string& lost) {
+json reportOf(const rung_replacement* replacement, Losses& lost) {
   auto info = sized<rung_replacement_info>();
   check(rung_replacement_report(replacement, &info));
   json changes = json::array();
@@ -52,7 +73,8 @@ json reportOf(const rung_replacement* replacement, std::string& lost) {
                        {"name", change.name},
                        {"former", change.former},
                        {"state", change.is_state != 0}});
-    if (loses(change.kind)) lost += (lost.empty() ? "" : ", ") + std::string(change.name);
+    if (losesState(change.kind)) lost.state.emplace_back(change.name);
+    if (change.kind == RUNG_CHANGE_RELEASED) lost.outputs.emplace_back(change.name);
   }
   json rungs = json::array();
   auto rung = sized<rung_rung_change>();
@@ -124,18 +146,17 @@ json Changes::reload(const Peer& peer, const json& request) {
   decltype(replacement_) replacement(made);
   const host::PlcHost::Losses pins = plc_.host().lossesBy(made, image.program());
   if (!pins.mistakes.empty())
-    throw Refused("the mapping file does not fit the new program:\n" + joined(pins.mistakes, "\n") +
-                  "\nnothing has changed");
-  std::string lost;
-  json report = reportOf(made, lost);
+    throw Refused("the mapping file does not fit the new program; nothing has changed:\n" + misfitsText(pins.mistakes));
+  Losses losses;
+  json report = reportOf(made, losses);
+  const std::string lost = losses.text();
   report["program"] = next.text;
   report["pins"] = pins.moved;
   if ((!lost.empty() || !pins.moved.empty()) && !flagOf(request, "yes")) {
     report["ok"] = false;
     report["needs"] = "yes";
     report["error"] = (pins.moved.empty() ? "" : "pins lose or change their variables: " + joined(pins.moved, "; ")) +
-                      (pins.moved.empty() || lost.empty() ? "" : "; ") +
-                      (lost.empty() ? "" : "the new program loses state: " + lost);
+                      (pins.moved.empty() || lost.empty() ? "" : "; ") + lost;
     return report;
   }
   if (flagOf(request, "late")) check(rung_replacement_allow_late(made));
@@ -150,9 +171,9 @@ json Changes::reload(const Peer& peer, const json& request) {
 json Changes::rollback(const Peer& peer, const json&) {
   if (replacement_ == nullptr)
     throw Refused("no program has been reloaded, so there is no former program to return to");
-  std::string lost;
+  Losses losses;
   const host::PlcHost::Losses pins = plc_.host().lossesBy(replacement_.get());
-  json report = reportOf(replacement_.get(), lost);
+  json report = reportOf(replacement_.get(), losses);
   auto info = sized<rung_replacement_info>();
   check(rung_replacement_report(replacement_.get(), &info));
   report["again"] = info.next == info.program; // the reloaded program, which a rollback had replaced

@@ -58,6 +58,7 @@ json Status::status(const Peer&, const json&) {
   out["missed"] = look.state.missed;
   out["restarts"] = plc_.host().restarts();
   out["functions"] = jsonOf(look.functions);
+  out["forced"] = plc_.activeForces().size();
   out["us"] = look.state.now_us;
   out["stopped"] = (flags & RUNG_STATE_STOPPED) != 0;
   out["unsaved"] = (flags & RUNG_STATE_UNSAVED) != 0;

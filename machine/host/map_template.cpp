@@ -41,18 +41,33 @@ PinType pinTypeOf(uint32_t type) {
   }
 }
 
-// "*ESP" is esp, "X002.1" x002-1.
-std::string pinNameOf(std::string_view name) {
+// The word for a mark before a signal's name: the direction of an axis, or that it is inverted (HAL calls such pins
+// NAME-not, too); "" for another character.
+std::string_view wordOfMark(char c) {
+  switch (c) {
+  case '+': return "-plus";
+  case '-': return "-minus";
+  case '*': return "-not";
+  default: return "";
+  }
+}
+
+// "X002.1" is x002-1, "*+L1" l1-plus-not, "D8:4", whose bits have names like d8-4, d8-4bytes. `marks` is where the
+// marks of the name begin, after the path in "C2-J1".
+std::string pinNameOf(std::string_view name, size_t marks) {
+  std::string end;
+  for (size_t i = marks; i < name.size() && !wordOfMark(name[i]).empty(); ++i) end.insert(0, wordOfMark(name[i]));
+  if (name.find(':') != std::string_view::npos) end += "bytes";
   std::string pin;
   for (const char c : name) {
+    if (pin.size() + end.size() >= kLongestPin) break;
     if (text::isLetter(c) || text::isDigit(c))
       pin += text::lower(c);
     else if (!pin.empty() && pin.back() != '-')
       pin += '-';
-    if (pin.size() == kLongestPin) break;
   }
   while (!pin.empty() && pin.back() == '-') pin.pop_back();
-  return pin.empty() ? "pin" : pin;
+  return (pin.empty() ? "pin" : pin) + end;
 }
 
 // Quotes a text for a TOML file.
@@ -128,13 +143,22 @@ private:
     return pins;
   }
   std::string uniquePin(const Row& row) {
-    const std::string base = pinNameOf(row.name);
+    const std::string base = pinNameOf(row.name, marksOf(row.name));
     const auto isTaken = [&](const std::string& pin) { return isOwnPin(pin) || pins_.contains(pin); };
     std::string name = base;
     for (int number = 2; std::ranges::any_of(pinsOf(name, row.bits), isTaken); ++number)
       name = base + "-" + std::to_string(number);
     std::ranges::copy(pinsOf(name, row.bits), std::inserter(pins_, pins_.end()));
     return name;
+  }
+
+  // Where the marks of a name begin: after the path of a signal of another path, "C2-J1".
+  size_t marksOf(std::string_view name) const {
+    const size_t path = name.find_first_of("+-*");
+    const nc::SignalTable* table = nc::signalsOf(program_.dialect);
+    if (path == std::string_view::npos || path < 2 || table == nullptr || text::lower(name[0]) != 'c') return 0;
+    const bool isOfPath = std::ranges::all_of(name.substr(1, path - 1), text::isDigit);
+    return isOfPath && nc::findSignal(*table, name.substr(path)) != nullptr ? path : 0;
   }
 
   // The address, by which wiring diagrams go, and the comment of the program, if it is one line.

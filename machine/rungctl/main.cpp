@@ -123,6 +123,8 @@ int status(Client& client, const Words& words) {
     text += stopOf(answer);
   else
     text += runningOf(answer);
+  if (const auto forced = answer.value("forced", size_t{0}); forced != 0)
+    text += fmt::format("{} forced: see rungctl forced\n", forced);
   print(words, answer, text + functionsOf(answer) + clockOf(answer) + connectionsOf(answer));
   return cli::kOk;
 }
@@ -276,7 +278,8 @@ int forced(Client& client, const Words& words) {
   const json answer = asked(client, {{"do", "forced"}});
   std::string text;
   for (const json& force : answer["forced"])
-    text += fmt::format("{} = {}, by {}\n", shown(force["name"]), shown(force["value"]), shown(force["owner"]));
+    text += fmt::format("{} = {}, by {}, since program time {:.3f} s\n", shown(force["name"]), shown(force["value"]),
+                        shown(force["owner"]), static_cast<double>(force.value("since_us", int64_t{0})) / 1e6);
   print(words, answer, text.empty() ? "nothing is forced" : text);
   return cli::kOk;
 }

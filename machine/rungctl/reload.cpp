@@ -12,6 +12,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -24,7 +25,11 @@ using nlohmann::json;
 
 namespace {
 
-constexpr char kCutNote[] = ": its new place has no room for all its contents, the rest is lost";
+std::string_view noteOf(const std::string& kind) {
+  if (kind == "cut") return ": its new place has no room for all its contents, the rest is lost";
+  if (kind == "released") return ": no rung writes it any more, it becomes 0";
+  return "";
+}
 
 std::string reportOf(const json& answer) {
   std::string text;
@@ -37,7 +42,7 @@ std::string reportOf(const json& answer) {
   for (const json& change : answer.value("changes", json::array()))
     text += fmt::format("{} {}{}{}\n", shown(change["kind"]), shown(change["name"]),
                         change.value("former", "").empty() ? "" : " (was " + shown(change["former"]) + ")",
-                        change.value("kind", "") == "cut" ? kCutNote : "");
+                        noteOf(change.value("kind", "")));
   for (const json& pin : answer.value("pins", json::array())) text += shown(pin) + "\n";
   text += fmt::format("kept: {} names, {} states of edges, timers and counters\n", answer.value("kept_cells", 0),
                       answer.value("kept_states", 0));

@@ -326,6 +326,42 @@ SUB 64
         self.assertIn("5 of 5 rungs ran", said)
         self.assertRegex(said, rf"lamp\.mne:{TIMER} +the lamp")
 
+    def test_profile_of_slots_alone(self):
+        self.write("lamp.scn", "program lamp.mne\nset START 1\nslot 4\nexpect LAMP 1\n")
+        said = self.run_rungc("profile", "lamp.scn")[0]
+        self.assertIn("lamp.scn, 0 whole scans, ", said)
+        self.assertIn("\nno scan was timed: only the statements scan and run make whole scans; ", said)
+        self.assertRegex(said, r"\nLEVEL2 +4 ")
+        for text in ("a scan takes", "whole scan ", "operations in a scan"):
+            self.assertNotIn(text, said)
+
+    def test_pins_of_a_template_keep_signs(self):
+        names = {"+J1": "j1-plus", "-J1": "j1-minus", "*+L1": "l1-plus-not", "*-L1": "l1-minus-not", "C2-J1": "c2-j1-minus", "C2*ESP": "c2-esp-not",
+                 "C2-PUMP": "c2-pump"}
+        outputs = "".join(f"G{1100 + at}.0 {name}\n" for at, name in enumerate(names))
+        self.write("axes.mne", LADDER.replace("P1 COUNT\n", outputs + "P1 COUNT\n")
+                   .replace("SUB 2\n", "".join(f"RD START\nWRT {name}\n" for name in names) + "SUB 2\n"))
+        said = self.run_rungc("map", "axes.mne", "--template")[0]
+        for name, pin in names.items():
+            self.assertIn(f'\n{pin} = {{ type = "bit", name = "{name}" }}', said)
+
+    def test_a_number_of_a_message_leads_to_its_bit(self):
+        self.write("texts.mne", LADDER.replace("SPE\nSUB 64\n%\n", "SPE\nSUB 64\n%\n%@4\nA1.2 1007 DOOR OPEN\n%\n").replace("WRT R2.1", "WRT A1.2"))
+        done = subprocess.run([Path(RUNGC).resolve(), "run", "-i", "-q", "texts.mne"], cwd=self.folder, capture_output=True, text=True,
+                              input="why 1007\nwhy EX1007\nwhy 1008\nwhy A1.2\n", timeout=patience(), check=False)
+        for word in ("1007", "EX1007"):
+            self.assertIn(f"'{word}' is a message, not a name of this program; its bit is A1.2\n", done.stdout)
+        self.assertIn("'1008' is not a name of this program", done.stdout)
+        self.assertIn("A1.2 is 0", done.stdout)
+
+    def test_the_end_of_forces_is_said(self):
+        done = subprocess.run([Path(RUNGC).resolve(), "run", "-i", "-q", "lamp.mne"], cwd=self.folder, capture_output=True, text=True,
+                              input="force X9.1 1\nscan\nforce X9.0 1\nforces\nreplace lamp.mne\nforce X9.0 1\nwarm_start\nforce X9.0 1\nunforce\n",
+                              timeout=patience(), check=False)
+        for text in ("X9.0 = 1, since 0.008 s\n", "X9.1 = 1, since 0.000 s\n", "2 forces ended: X9.0, X9.1\n", "1 force ended: X9.0\n"):
+            self.assertIn(text, done.stdout)
+        self.assertEqual(done.stdout.count(" ended: "), 2, "unforce says nothing")
+
     def test_format(self):
         self.write("wild.mne", LADDER.replace("RD RUN", "  rd   RUN").replace("COUNT SP", " COUNT  sp"))
         self.assertEqual(self.run_rungc("format", "--check", "wild.mne", status=WRONG)[0], "wild.mne\n")

@@ -252,7 +252,7 @@ class Piped(Folder):
         lines = "set START 1\nforce PUMP 0\nscan\nPUMP\nforces\nunforce PUMP\nscan\nPUMP\nforces\n"
         for args in ((), ("--engine", "interp")):
             output = self.prompt(lines, *args).splitlines()
-            self.assertEqual(output[:4], ["PUMP = 0", "PUMP = 0", "PUMP = 1", "nothing is forced"])
+            self.assertEqual(output[:4], ["PUMP = 0", "PUMP = 0, since 0.000 s", "PUMP = 1", "nothing is forced"])
         for args in ((), ("--no-ir",)):
             self.assertEqual(rungc("build", "lamp.lad", "-o", "lamp.so", *args, cwd=self.folder).returncode, OK)
             output = self.prompt(lines, status=WRONG if args else OK, program="./lamp.so")

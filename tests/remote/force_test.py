@@ -59,12 +59,15 @@ class Forces(Forcing):
         self.wait(lambda: not self.get("Y0.0"))
         names = {force["name"]: force["value"] for force in json.loads(self.ctl("forced", "--json"))["forced"]}
         self.assertEqual(names, {"X0.0": True, "Y0.0": False})
+        self.assertRegex(self.ctl("forced"), r"(?m)^X0\.0 = true, by \S+, since program time \d+\.\d{3} s$")
+        self.assertIn("\n2 forced: see rungctl forced\n", self.ctl("status"))
         self.assertEqual(self.ctl("unforce", "Y0.0"), "Y0.0 is no longer forced\n")
         self.wait(lambda: self.get("Y0.0"))
         self.ctl("force", "Y0.0", "false")
         self.assertEqual(self.ctl("unforce", "X0.0"), "X0.0 is no longer forced\n")  # what is left needs code
         self.assertEqual(self.ctl("forced").split(",")[0], "Y0.0 = false")
         self.assertEqual(self.ctl("unforce", "--all").count("is no longer forced\n"), 1)
+        self.assertNotIn("forced", self.ctl("status"))
         self.wait(lambda: not self.get("X0.0"))
         self.assertIn("force Y0.0 to true", self.logged())
         self.assertScans()

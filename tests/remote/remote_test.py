@@ -993,9 +993,15 @@ class Named(Host):
                 ("symbol GO X0.0", "symbol GO Y0.5", "in.run.name: found GO, an output of the program")):
             with self.subTest(after=after):
                 answer = self.ctl("reload", self.program_with(before, after), "--yes", status=WRONG)
-                self.assertRegex(answer, r"^rungctl: the mapping file does not fit the new program:\n(\S+plc.map:\d+:\d+: .*\n)+nothing has changed\n$")
+                self.assertRegex(answer, r"^rungctl: the mapping file does not fit the new program; nothing has changed:\n(\S+plc.map:\d+:\d+: .*\n)+$")
                 self.assertIn(text, answer)
                 self.assertIn("program stuck,", self.ctl("status"))
+
+    def test_an_output_that_no_rung_writes_any_more(self):
+        without = self.program_with("OUT  Y0.0", "OUT  R0.0")
+        said = self.ctl("reload", without, status=WRONG)
+        self.assertIn("released LAMP: no rung writes it any more, it becomes 0\n", said)
+        self.assertIn("rungctl: no rung of the new program writes LAMP any more: it becomes 0; nothing has changed; use --yes", said)
 
     def test_a_pin_whose_cell_moves(self):
         moved = self.program_with("symbol GO X0.0", "symbol GO X0.5")
@@ -1008,6 +1014,19 @@ class Named(Host):
         self.ctl("set", "X0.0", "1")
         self.assertEqual(self.get("X0.0"), True)
         self.assertIn("pin run: GO moves from X0.5 to X0.0\n", self.ctl("rollback"))
+
+
+class OfAnotherMachine(Host):
+    names = [f"KEY{number}" for number in range(12)]
+    program_text = PROGRAM.replace("FUNC END1", "".join(f"symbol {name} X1{at // 8}.{at % 8}\n" for at, name in enumerate(names)) + "FUNC END1")
+    map = MAP.replace("[out]", "".join(f'{name.lower()} = {{ type = "bit", name = "{name}" }}\n' for name in names) + "[out]")
+
+    def test_a_few_of_its_mistakes_are_enough(self):
+        lines = self.ctl("reload", self.program_with("symbol KEY", "symbol LAMP"), "--yes", status=WRONG).splitlines()
+        self.assertEqual(lines[0], "rungctl: the mapping file does not fit the new program; nothing has changed:")
+        self.assertEqual(len(lines), 12)
+        self.assertIn("found an unknown name KEY9", lines[10])
+        self.assertEqual(lines[11], "and 2 more; is this the right program?")
 
 
 class WayBack(Host):

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <span>
 
 namespace rung::report {
 
@@ -25,8 +26,9 @@ DrawnRungs drawnRungs(const ProfileReport& report) {
 namespace {
 
 std::string scansText(const Profile& profile) {
-  if (profile.scenarios.size() == 1) return fmt::format("{}, {} scans", profile.scenarios[0], profile.scans);
-  return fmt::format("{} scenarios, {} scans", profile.scenarios.size(), profile.scans);
+  const char* scans = profile.scans == 0 ? "whole scans" : "scans";
+  if (profile.scenarios.size() == 1) return fmt::format("{}, {} {}", profile.scenarios[0], profile.scans, scans);
+  return fmt::format("{} scenarios, {} {}", profile.scenarios.size(), profile.scans, scans);
 }
 
 std::string headText(const Profile& profile) {
@@ -40,6 +42,10 @@ std::string headText(const Profile& profile) {
 
 // The overhead of the measurement.
 std::string costText(const Profile& profile) {
+  if (profile.scans == 0)
+    return fmt::format("no scan was timed: only the statements scan and run make whole scans; the overhead of {} per "
+                       "rung is already subtracted\n",
+                       durationText(profile.report.clock.costNs()));
   return fmt::format("a scan takes {} ({} while measured); the overhead of {} per rung is already subtracted\n",
                      durationText(profile.deadlines[0].ns.median), durationText(profile.measuredScanNs),
                      durationText(profile.report.clock.costNs()));
@@ -53,9 +59,12 @@ std::string deadlineTable(const Profile& profile) {
   std::string text =
       fmt::format("{:<24} {:>8} {:>10} {:>10} {:>10} {:>10}\n", "", "runs", "mean", "median", "p99", "worst");
   const Spread& operations = profile.scanOperations;
-  text += fmt::format("{:<24} {:>8} {:>10.1f} {:>10.0f} {:>10.0f} {:>10.0f}\n", "operations in a scan",
-                      operations.count, operations.mean, operations.median, operations.p99, operations.max);
-  for (const Deadline& deadline : profile.deadlines) {
+  const bool hasScans = profile.scans != 0;
+  if (hasScans)
+    text += fmt::format("{:<24} {:>8} {:>10.1f} {:>10.0f} {:>10.0f} {:>10.0f}\n", "operations in a scan",
+                        operations.count, operations.mean, operations.median, operations.p99, operations.max);
+  // The first is that of scans.
+  for (const Deadline& deadline : std::span(profile.deadlines).subspan(hasScans ? 0 : 1)) {
     const Spread& ns = deadline.ns;
     text += fmt::format("{:<24} {:>8} {:>10} {:>10} {:>10} {:>10}  {}\n", deadline.name, ns.count,
                         durationText(ns.mean), durationText(ns.median), durationText(ns.p99), durationText(ns.max),

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <ranges>
 #include <utility>
 
 #include "frontend/dialects/dialect.h"
@@ -136,8 +137,10 @@ Outcome Console::unreadable(const std::string& word, bool alone, const std::stri
 Outcome Console::execute(const Statement& statement) {
   const uint64_t scans = session_.scans();
   const int64_t us = session_.nowUs();
+  const Forces::Values forced = session_.forces();
   const std::optional<Problem> problem = session_.execute(statement);
   watch_.look(session_);
+  if (statement.kind != Kind::Unforce) reportEndOf(forced);
   for (const std::string& line : session_.shadowNews()) print_(line);
   const StatementInfo& info = StatementInfo::of(statement);
   if (problem) {
@@ -149,6 +152,13 @@ Outcome Console::execute(const Statement& statement) {
   if (typed && info.program == OtherProgram::TakesOver)
     for (const std::string& line : session_.report().lines()) print_(line);
   return record(statement, scans, us);
+}
+
+// Forces end at a fault, a stop, a power-on and when another program takes over.
+void Console::reportEndOf(const Forces::Values& forced) {
+  if (forced.empty() || !session_.forces().empty()) return;
+  print_(fmt::format("{} {} ended: {}", forced.size(), forced.size() == 1 ? "force" : "forces",
+                     fmt::join(forced | std::views::keys, ", ")));
 }
 
 Outcome Console::record(const Statement& s, uint64_t scansBefore, int64_t usBefore) {
@@ -245,7 +255,10 @@ Outcome Console::messages(std::span<const std::string> words) {
 
 Outcome Console::forces(std::span<const std::string>) {
   const Forces::Values& values = session_.forces();
-  for (const auto& [name, value] : values) print_(fmt::format("{} = {}", name, value.text));
+  for (const rung_force_info& force : session_.machine().instance().forced())
+    if (const auto value = values.find(force.name); value != values.end())
+      print_(fmt::format("{} = {}, since {:.3f} s", value->first, value->second.text,
+                         static_cast<double>(force.since_us) / 1e6));
   if (values.empty()) print_("nothing is forced");
   return Outcome::Done;
 }

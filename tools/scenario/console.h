@@ -147,6 +147,7 @@ private:
   Outcome unreadable(const std::string& word, bool alone, const std::string& problem);
   Outcome include(const std::string& file);
   // Records the statement. Interrupted if it did less than it says.
+  void reportEndOf(const Forces::Values& forced);
   Outcome record(const Statement& s, uint64_t scansBefore, int64_t usBefore);
   void recordProgram(const Statement& s);
   void reportFault();

@@ -7,6 +7,7 @@
 #include <unordered_set>
 #include <utility>
 
+#include "rtlib/nc/fanuc/messages.h"
 #include "rtlib/nc/names/names.h"
 #include "rtlib/nc/signals.h"
 #include "rtlib/text/similar.h"
@@ -74,6 +75,8 @@ std::vector<std::string> namesOf(const rung_program& program, const sim::Simulat
 
 std::string unknownName(const rung_program& program, const sim::SimulatedNc& nc, std::string_view name) {
   if (std::string problem = nc.cellProblem(name); !problem.empty()) return problem;
+  if (const std::string address = nc::fanuc::addressOfMessage(program, name); !address.empty())
+    return fmt::format("'{}' is a message, not a name of this program; its bit is {}", name, address);
   const std::vector<std::string> names = namesOf(program, nc);
   return fmt::format("'{}' is not a name of this program{}", name,
                      text::didYouMean(text::mostSimilar(nc::headOf(name), names)));

@@ -86,7 +86,9 @@ std::string NetworkBuilder::beginsWith() const {
 }
 
 bool NetworkBuilder::mayHaveCoils() const {
-  return network_.function.row == nullptr || network_.function.row->info.output != frontend::Output::None;
+  const Row* row = network_.function.row;
+  const bool isKnown = row != nullptr && row->built;
+  return !isKnown || row->info.output != frontend::Output::None;
 }
 
 // Reports a contact or block command outside the logic of a network.

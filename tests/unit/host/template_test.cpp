@@ -43,7 +43,7 @@ TEST(Template, WhatTheMachineAndTheNcHave) {
       "x0-0 = { type = \"bit\", name = \"X0.0\" }\n"
       "x10 = { type = \"bit\", name = \"X10\", bits = 8 }\n"
       "\n# No rung writes these relays and registers of the program; a pin, [param] or [const] may:\n"
-      "# d12-2 = { type = \"s32\", name = \"D12:2\" }\n"
+      "# d12-2bytes = { type = \"s32\", name = \"D12:2\" }\n"
       "\n[out]\n"
       "sym = { type = \"bit\", name = \"SYM\" } # Y1.2\n"
       "\n# M, S and T functions: an edge of a pin hands one to the program.\n#\n";
@@ -52,12 +52,21 @@ TEST(Template, WhatTheMachineAndTheNcHave) {
 
 TEST(Template, InputsThatAreNarrowerThanAPin) {
   const std::string numbers = "# Numbers of 16 bits; of a greater one the pin's upper bits are lost:\n"
-                              "# x12-2 = { type = \"s32\", name = \"X12:2\" }\n\n";
+                              "# x12-2bytes = { type = \"s32\", name = \"X12:2\" }\n\n";
   const std::string both = templateOf(testing::gskProgram(), {{"X10", true, false}, {"X12:2", true, false}});
   EXPECT_NE(both.find("[in]\nx10 = { type = \"bit\", name = \"X10\", bits = 8 }\n\n" + numbers), std::string::npos)
       << both;
   const std::string alone = templateOf(testing::gskProgram(), {{"X12:2", true, false}});
   EXPECT_NE(alone.find("[in]\n" + numbers), std::string::npos) << alone;
+}
+
+TEST(Template, MarksOfSignalsAreWords) {
+  const std::string text =
+      templateOf(testing::gskProgram(), {{"+J1", false, true}, {"-J1", false, true}, {"*ESP", false, true}});
+  for (const char* row :
+       {"\nj1-plus = { type = \"bit\", name = \"+J1\" }", "\nj1-minus = { type = \"bit\", name = \"-J1\" }",
+        "\nesp-not = { type = \"bit\", name = \"*ESP\" }"})
+    EXPECT_NE(text.find(row), std::string::npos) << row << '\n' << text;
 }
 
 TEST(Template, WhatBothSidesShareIsAComment) {

@@ -83,7 +83,7 @@ TEST_F(FanucControl, MessagesNeedTheirBitAndTheDisplay) {
   EXPECT_EQ(changes(), Lines{});
   EXPECT_FALSE(control_.showsAlarm(*instance_));
   set(kDisplay, 0, 0, true);
-  EXPECT_EQ(shown(), Lines{"alarm EX1000 \"DOOR OPEN\""});
+  EXPECT_EQ(shown(), Lines{"message EX1000 \"DOOR OPEN\""});
   EXPECT_EQ(changes(), Lines{"+EX1000 DOOR OPEN"});
   EXPECT_EQ(changes(), Lines{});
   EXPECT_TRUE(control_.showsAlarm(*instance_));
@@ -119,7 +119,7 @@ TEST_F(FanucControl, Languages) {
   instance_->memory().writeByte(kK, 919, 400 >> 8);
   set(kA, 0, 1, true);
   set(kA, 1, 0, true);
-  EXPECT_EQ(shown(), (Lines{"alarm EX1000 \"TUER OFFEN\"", "message 2005 \"OIL LEVEL LOW\""}));
+  EXPECT_EQ(shown(), (Lines{"message EX1000 \"TUER OFFEN\"", "message 2005 \"OIL LEVEL LOW\""}));
   EXPECT_EQ(changes(), (Lines{"+EX1000 TUER OFFEN", "+2005 OIL LEVEL LOW"}));
   instance_->memory().writeByte(kK, 918, 0);
   instance_->memory().writeByte(kK, 919, 0);

@@ -2,16 +2,12 @@
 #include "rtlib/change/forcing.h"
 #include "rtlib/load/program_info.h"
 #include "rtlib/nc/control/pmc/messages.h"
-#include "rtlib/text/number.h"
+#include "rtlib/nc/fanuc/messages.h"
 
 namespace rung::nc {
 namespace {
 
-// The number at the beginning of a text of FANUC's list, "1000 DOOR OPEN".
-uint32_t numberOf(std::string_view text) {
-  return text::numberIn<uint32_t>(text.substr(0, text.find(' '))).value_or(0);
-}
-// The text without the number.
+// A text of FANUC's list without its number.
 std::string_view withoutNumber(std::string_view text) {
   const size_t blank = text.find(' ');
   return blank == std::string_view::npos ? std::string_view() : text.substr(blank + 1);
@@ -63,7 +59,7 @@ void PmcMessages::Places::readTexts(const rung_program& of) {
   for (const rung_message_text& text : std::span(of.texts, of.text_count)) {
     if (text.number == 0 || text.number > 8 * kMostBytes) continue;
     if (text.number > numbers.size()) numbers.resize(text.number);
-    numbers[text.number - 1] = numberOf(text.text);
+    numbers[text.number - 1] = fanuc::messageNumber(text.text);
   }
 }
 
@@ -119,7 +115,7 @@ size_t PmcMessages::describe(const rung_program& program, const rung_message& me
 
 std::string PmcMessages::text(const ShownMessage& message) {
   const std::string number = std::to_string(message.number), text = " \"" + message.text + "\"";
-  if (isAlarm(message.number)) return "alarm EX" + number + text;
+  if (isAlarm(message.number)) return "message EX" + number + text;
   return "message " + number + text + (message.number >= kFirstPlain ? ", shown without its number" : "");
 }
 

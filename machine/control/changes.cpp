@@ -1,8 +1,10 @@
 // See changes.h.
 #include "machine/control/changes.h"
 
+#include <algorithm>
 #include <chrono>
 #include <iterator>
+#include <string>
 #include <utility>
 
 #include "machine/control/turn.h"
@@ -15,6 +17,7 @@ using nlohmann::json;
 namespace {
 
 constexpr size_t kMostChanges = 1000; // largest number in a report
+constexpr size_t kMostMistakes = 10;  // likewise
 constexpr uint32_t kMostShadowScans = 100'000;
 constexpr uint32_t kShadowRoom = 256; // runs of tasks that wait to be compared
 constexpr std::chrono::seconds kTakeOverTime(3);
@@ -39,6 +42,17 @@ const char* rungChangeName(uint32_t kind) {
 bool loses(uint32_t kind) {
   return kind == RUNG_CHANGE_REMOVED || kind == RUNG_CHANGE_RETYPED || kind == RUNG_CHANGE_RELEASED ||
          kind == RUNG_CHANGE_CUT;
+}
+
+// The first mistakes: a program for another machine has one for each pin.
+std::string misfit(std::vector<std::string> mistakes) {
+  const size_t count = mistakes.size();
+  mistakes.resize(std::min(count, kMostMistakes));
+  std::string text = "nothing has changed, because the mapping file does not fit the new program; is it the right "
+                     "program?\n" +
+                     joined(mistakes, "\n");
+  if (count > mistakes.size()) text += "\nand " + std::to_string(count - mistakes.size()) + " more mistakes";
+  return text;
 }
 
 // Report of the state that is lost or changed when the replacement's program takes over.
@@ -123,9 +137,7 @@ json Changes::reload(const Peer& peer, const json& request) {
   check(rung_replacement_new(plc_.instance(), image.handle(), nullptr, 0, &made));
   decltype(replacement_) replacement(made);
   const host::PlcHost::Losses pins = plc_.host().lossesBy(made, image.program());
-  if (!pins.mistakes.empty())
-    throw Refused("the mapping file does not fit the new program:\n" + joined(pins.mistakes, "\n") +
-                  "\nnothing has changed");
+  if (!pins.mistakes.empty()) throw Refused(misfit(pins.mistakes));
   std::string lost;
   json report = reportOf(made, lost);
   report["program"] = next.text;

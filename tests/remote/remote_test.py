@@ -993,7 +993,7 @@ class Named(Host):
                 ("symbol GO X0.0", "symbol GO Y0.5", "in.run.name: found GO, an output of the program")):
             with self.subTest(after=after):
                 answer = self.ctl("reload", self.program_with(before, after), "--yes", status=WRONG)
-                self.assertRegex(answer, r"^rungctl: the mapping file does not fit the new program:\n(\S+plc.map:\d+:\d+: .*\n)+nothing has changed\n$")
+                self.assertRegex(answer, r"^rungctl: nothing has changed, because the mapping file does not fit the new program; is it the right program\?\n(\S+plc.map:\d+:\d+: .*\n)+$")
                 self.assertIn(text, answer)
                 self.assertIn("program stuck,", self.ctl("status"))
 
@@ -1008,6 +1008,18 @@ class Named(Host):
         self.ctl("set", "X0.0", "1")
         self.assertEqual(self.get("X0.0"), True)
         self.assertIn("pin run: GO moves from X0.5 to X0.0\n", self.ctl("rollback"))
+
+
+class NamedOften(Host):
+    """A reload of a program for another machine."""
+    names = "".join(f"symbol KEY_{n} X2.{n}\nsymbol LAMP_{n} Y2.{n}\n" for n in range(8))
+    program_text = PROGRAM.replace("FUNC END1", names + "FUNC END1")
+    map = MAP.replace("[out]\n", "".join(f'key-{n} = {{ type = "bit", name = "KEY_{n}" }}\n' for n in range(8)) + "[out]\n" +
+                      "".join(f'lamp-{n} = {{ type = "bit", name = "LAMP_{n}" }}\n' for n in range(8)))
+
+    def test_the_first_ten_of_many_mistakes_are_shown(self):
+        self.assertRegex(self.ctl("reload", self.program_with(self.names, ""), "--yes", status=WRONG),
+                         r"^rungctl: nothing has changed, because .*; is it the right program\?\n(\S+plc.map:\d+:\d+: .*\n){10}and 6 more mistakes\n$")
 
 
 class WayBack(Host):

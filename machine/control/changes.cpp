@@ -1,8 +1,10 @@
 // See changes.h.
 #include "machine/control/changes.h"
 
+#include <algorithm>
 #include <chrono>
 #include <iterator>
+#include <string>
 #include <utility>
 
 #include "machine/control/turn.h"

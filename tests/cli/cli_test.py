@@ -865,7 +865,9 @@ class Seals(Cli):
     def test_explain_and_doc(self):
         self.assertIn(b"multi-level-output", rungc("explain", "multi-level-output").stdout)
         self.assertIn(b"TOND", rungc("explain", "tond").stdout)
-        self.assertEqual(rungc("explain", "no-such-thing").returncode, WRONG)
+        done = rungc("explain", "no-such-thing")
+        self.assertEqual(done.returncode, WRONG)
+        self.assertIn(b"; for a name of a program, name its project with --project\n", done.stderr)
         for page in ("gsk", "nct", "technol", "diagnostics", "ir"):
             self.assertEqual(rungc("doc", page).returncode, OK, page)
         self.assertEqual(rungc("doc", "klingon").returncode, USAGE)

@@ -118,7 +118,8 @@ class Import(unittest.TestCase):
         self.rungc("import", self.file("PMC1_PRM.TXT", PARAMETERS), "-o", "machine.part")
         self.file("values.scn", "include machine.part\nscan\nexpect T0:2 6\nexpect K5 0x81\nexpect D0:2 300\nexpect D2:2 5\n")
         self.rungc("test", "values.scn")
-        self.rungc("run", "-i", "--retain", "kept", stdin=(self.home / "machine.part").read_text())
+        out, _ = self.rungc("run", "-i", "--retain", "kept", stdin=(self.home / "machine.part").read_text())
+        self.assertIn("\nwrote kept.a, kept.b\n", out)
         out, _ = self.rungc("run", "-i", "--retain", "kept", stdin="print T0:2 K5 D0:2\n")
         self.assertRegex(out, r"T0:2 = 6 .*K5 = 129 .*D0:2 = 300 ")
 
@@ -132,7 +133,7 @@ class Import(unittest.TestCase):
         self.project()
         rows = self.trace()
         _, err = self.rungc("import", self.traced(rows), "--sampling", "8ms", "-o", "trace.scn")
-        self.assertRegex(err, r"^trace\.csv:2:24: note: Y8\.0 is expected in 4\d\d of 440 frames; the others are within 1 of a change")
+        self.assertRegex(err, r"^trace\.csv:2:24: note: Y8\.0 is expected in 4\d\d of 440 frames; the others are within 1 frame of a change")
         self.rungc("test", "trace.scn")
 
     def test_the_trace_of_another_program_is_a_test_that_fails(self):

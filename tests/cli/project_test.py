@@ -167,7 +167,7 @@ class New(Cli):
     def test_each_dialect(self):
         for dialect, drawn in (("fanuc", False), ("nct", True), ("gsk", True), ("technol", False)):
             out, _ = self.rungc("new", dialect, f"my-{dialect}")
-            self.assertIn(f"cd 'my-{dialect}' && rungc test", out)
+            self.assertRegex(out, rf"(?m)^try: \S+/rungc test 'my-{dialect}'$")  # rungc as it was called
             cwd = self.path / f"my-{dialect}"
             self.assertIn("*.so", (cwd / ".gitignore").read_text())
             self.assertNotIn("{{NAME}}", "".join(path.read_text() for path in cwd.rglob("*") if path.is_file()))

@@ -168,7 +168,7 @@ public:
     for (const Run& run : runsOf(file.parameters)) writeRun(run);
     return fmt::format(
         "# Made by rungc import from {}{}{}: what the control keeps while it is off.\n"
-        "# A scenario takes it by `include FILE`, retained memory by `rungc run -i --retain NAME < FILE`.\n"
+        "# A scenario takes it by `include FILE`, retained memory by `rungc run -i PROGRAM --retain NAME < FILE`.\n"
         "# Only values other than 0: {} of {}.\n{}",
         inBrief(source_.name), file.title.empty() ? "" : " ", file.title, written_, file.parameters.size(), text_);
   }

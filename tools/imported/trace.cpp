@@ -200,11 +200,10 @@ private:
       remarks_.push_back(
           {signal.at, fmt::format("{} is a relay of the control itself, neither set nor expected", signal.name)});
     else if (signal.role == Role::Output)
-      remarks_.push_back(
-          {signal.at,
-           fmt::format(
-               "{} is expected in {} of {} frames; the others are within {} of a change or of an end of the trace",
-               signal.name, expected_[number], all, sampling_.tolerance)});
+      remarks_.push_back({signal.at, fmt::format("{} is expected in {} of {} frames; the others are within {} frame{} "
+                                                 "of a change or of an end of the trace",
+                                                 signal.name, expected_[number], all, sampling_.tolerance,
+                                                 sampling_.tolerance == 1 ? "" : "s")});
   }
 
   std::vector<Remark>& remarks_;

@@ -47,13 +47,15 @@ std::string listed(const std::vector<compiler::ReferenceEntry>& found) {
   return text;
 }
 
-int reportUnknown(const std::vector<compiler::ReferenceEntry>& entries, const std::string& word, bool hasErrors) {
+int reportUnknown(const std::vector<compiler::ReferenceEntry>& entries, const std::string& word,
+                  const ProjectNames* names) {
   const std::string meant = text::didYouMean(text::mostSimilar(word, entries, &compiler::ReferenceEntry::name));
-  if (hasErrors)
+  if (names != nullptr && names->hasErrors)
     fmt::print(stderr, "rungc: the program of the project has errors, so its addresses are not known: `rungc check` "
                        "lists the errors\n");
-  fmt::print(stderr, "rungc: '{}' is not known, and no name or title contains it{}{}\n", word, meant,
-             meant.empty() ? "; `rungc explain` lists the topics" : "");
+  fmt::print(stderr, "rungc: '{}' is not known, and no name or title contains it{}{}{}\n", word, meant,
+             meant.empty() ? "; `rungc explain` lists the topics" : "",
+             names == nullptr ? "; for a name of a program, name its project with --project" : "");
   return kWrong;
 }
 
@@ -75,7 +77,7 @@ int explainWord(const std::string& word, const std::string& projectFile) {
   std::vector<compiler::ReferenceEntry> entries = compiler::referenceEntries();
   if (names) entries.insert(entries.begin(), names->entries.begin(), names->entries.end());
   const std::vector<compiler::ReferenceEntry> found = search(entries, word);
-  if (found.empty()) return reportUnknown(entries, word, names && names->hasErrors);
+  if (found.empty()) return reportUnknown(entries, word, names ? &*names : nullptr);
   std::cout << plainText(listed(found));
   return kOk;
 }

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -72,7 +73,7 @@ int makeNew(const std::string& dialect, const std::string& folder) {
   const Result<std::vector<std::string>> written = makeProject(dialect, folder);
   if (!written.ok()) return environmentError(written.error());
   for (const std::string& file : written.value()) fmt::print("{}\n", file);
-  fmt::print("try: cd '{}' && rungc test\n", folder);
+  fmt::print("try: {} test '{}'\n", program_invocation_name, folder); // as the user has typed it
   return kOk;
 }
 

@@ -335,10 +335,15 @@ private:
     for (const Program& program : programs_)
       if (const std::string trouble = compiler::codeTrouble(*program.engine); !trouble.empty()) warn_(trouble);
     // Takes precedence over other failures: the run may have been right.
-    if (retained_)
-      if (const std::string error = retained_->finish(); !error.empty()) status = environmentError(error);
+    if (retained_) status = finishRetained(status);
     if (trace_)
       if (const std::string error = trace_->finish(); !error.empty()) status = environmentError(error);
+    return status;
+  }
+
+  int finishRetained(int status) {
+    if (const std::string error = retained_->finish(); !error.empty()) return environmentError(error);
+    if (!options_.source.quiet) fmt::print(out_, "wrote {0}.a, {0}.b\n", options_.retain);
     return status;
   }
 

@@ -223,7 +223,7 @@ std::string Session::set(const Statement& s) {
 std::string Session::scan(const Statement& s) { return advance(s.count, &sim::Machine::scan); }
 std::string Session::fast(const Statement& s) { return advance(s.count, &sim::Machine::fast); }
 std::string Session::slot(const Statement& s) {
-  if (!nc().control().runsInSlots()) return "only the second level of a GSK program is run in slots (8 ms)";
+  if (!nc().control().runsInSlots()) return "only the second level of a FANUC or GSK program is run in slots (8 ms)";
   return advance(s.count, &sim::Machine::slot);
 }
 

@@ -187,7 +187,8 @@ bool ParameterCheck::checkConstant(const Word& word, Param& param) {
   const uint32_t length = either ? param.kind->bytes : function_.length;
   if (!lengthKnown_ || fits(param.value, length)) return true;
   if (context_.language.cutsConstants) {
-    context_.diagnostics.report(diag::ConstantCut, word.range) << word.text << length;
+    context_.diagnostics.report(diag::ConstantCut, word.range)
+        << word.text << fmt::format("{} byte{}", length, length == 1 ? "" : "s");
     return true;
   }
   const uint32_t bits = length * 8;

@@ -61,7 +61,7 @@ void checkCut(network::Context& context, const network::Network& network) {
   constexpr int64_t kMost = 99;
   const network::Function& function = network.function;
   const auto cut = [&](int64_t value, SourceRange range) {
-    if (value > kMost) context.diagnostics.report(diag::ConstantCut, range) << value << 1;
+    if (value > kMost) context.diagnostics.report(diag::ConstantCut, range) << value << "1 byte";
   };
   if (constantCondition(context.language, network, 0) != false) return;
   if (!function.table.empty()) return cut(std::ranges::max(function.table), function.range);

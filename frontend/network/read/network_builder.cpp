@@ -85,8 +85,10 @@ std::string NetworkBuilder::beginsWith() const {
                      context_.language.nameOf(Command::LoadNot));
 }
 
+// A function that is not built may have an output, whatever its row says.
 bool NetworkBuilder::mayHaveCoils() const {
-  return network_.function.row == nullptr || network_.function.row->info.output != frontend::Output::None;
+  const Row* row = network_.function.row;
+  return row == nullptr || !row->built || row->info.output != frontend::Output::None;
 }
 
 // Reports a contact or block command outside the logic of a network.

@@ -13,6 +13,7 @@
 #include "ir/support/check.h"
 #include "ir/support/diag/source.h"
 #include "ir/support/encoding.h"
+#include "ir/support/foreign_file.h"
 #include "ir/text/text.h"
 #include "ir/transforms/passes.h"
 #include "ir/verify/verify.h"
@@ -56,7 +57,7 @@ bool checkNamedOnce(const SourceManager& sources, std::span<const FileId> files,
 
 void reportCutTexts(const SourceManager& sources, std::span<const FileId> files, Diagnostics& diagnostics) {
   for (const FileId file : files)
-    if (const size_t left = sources.textAfterEnd(file); left != 0)
+    if (const size_t left = sources.textAfterEnd(file); left != 0 && !isBinary(sources.text(file)))
       diagnostics.report(diag::IncompleteFile,
                          sources.range(file, sources.text(file).size(), sources.text(file).size()))
           << fmt::format("a Ctrl-Z ends the text here, and {} bytes after it are left out", left);

@@ -1001,6 +1001,12 @@ class HostileInput(Cli):
             self.assertIn(said, done.stderr)
             self.assertIn(b"[foreign-file]", done.stderr)
 
+    def test_a_binary_file_of_a_project_is_named_without_its_bytes(self):
+        self.file("PMC1.000", b"PMC\0\0\3\xff\x10\x1a more\n")
+        done = rungc("check", self.file("rung.toml", 'dialect = "fanuc"\nfiles = ["PMC1.000"]\n'))
+        self.assertEqual(done.returncode, WRONG)
+        self.assertRegex(done.stderr.decode(), r"\Aerror: '[^']*PMC1\.000' is a binary file, .* \[foreign-file\]\n1 error; .*\n\Z")
+
     def test_what_a_text_is_whose_name_does_not_say_it(self):
         for name, contents, said in (("CNC-PARA.TXT", "%\nN00000Q1P00000010\nN00001Q1P0\n%\n", "is parameters of the CNC, not of the PMC"),
                                      ("O0001.NC", "%\nO0001 (PART)\nG0 X0\nM30\n%\n", "is a part program (G code)"),

@@ -102,9 +102,14 @@ size_t rungsOf(const ir::Module& module) {
 
 constexpr size_t kMostWarnings = 10; // that a command shows whose purpose is not to check
 
-std::string shownFiles(const SourceOptions& options) {
-  const std::string files = options.project ? options.project->file : fmt::format("{}", fmt::join(options.files, " "));
-  return text::withoutControls(files);
+// `rungc check` of the same files with the configuration of the command line.
+std::string checkCommand(const SourceOptions& options) {
+  std::string command = "rungc check";
+  for (const std::string& file : options.project ? std::vector{options.project->file} : options.files)
+    command += " " + file;
+  for (size_t i = options.project ? options.project->config.size() : 0; i < options.config.size(); ++i)
+    command += " --config " + options.config[i];
+  return text::withoutControls(command);
 }
 
 } // namespace
@@ -119,7 +124,8 @@ void printDiagnostics(const Diagnostics& diagnostics, const SourceManager& sourc
   render.color = wantsColor(options.color, STDERR_FILENO);
   render.warnings = options.isCheck || warnings <= kMostWarnings;
   std::cerr << renderText(diagnostics, sources, render);
-  if (!render.warnings) fmt::print(stderr, "{} warnings: `rungc check {}` shows them\n", warnings, shownFiles(options));
+  if (!render.warnings)
+    fmt::print(stderr, "more than {} warnings: `{}` shows all\n", kMostWarnings, checkCommand(options));
   std::cerr << closingLine(diagnostics);
 }
 

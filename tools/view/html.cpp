@@ -350,7 +350,7 @@ void Page::table(const NameTable& table, size_t index) {
   if (!table.texts)
     out_ +=
         "<p class=\"C\">\u201cnever\u201d: no rung uses this name or address directly; block and indexed instructions "
-        "may.</p>\n";
+        "may. Indexed ones are not listed here, nor at contacts and coils; <code>rungc xref</code> names them.</p>\n";
   for (size_t first = 0; first < table.rows.size(); first += kTableRows) {
     const auto rows = std::span(table.rows).subspan(first, std::min(kTableRows, table.rows.size() - first));
     put(out_, "<div class=\"T{}\" style=\"contain-intrinsic-size:auto 1100px auto {}px\"><table><thead><tr>",

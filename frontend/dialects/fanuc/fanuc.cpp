@@ -78,7 +78,8 @@ bool checkKind(const network::Language& language, const SourceManager& sources, 
   if (network::isLadder(language, sources, file)) return true;
   if (isMnemonicFile(text) && !checkBytes(sources, file, diagnostics)) return false;
   const std::optional<std::string> foreign = foreignFile(text);
-  if (foreign) diagnostics.report(diag::ForeignFile, sources.range(file, 0, 0)) << sources.name(file) << *foreign;
+  const SourceRange shown = isBinary(text) ? SourceRange{} : sources.range(file, 0, 0);
+  if (foreign) diagnostics.report(diag::ForeignFile, shown) << sources.name(file) << *foreign;
   return !foreign;
 }
 

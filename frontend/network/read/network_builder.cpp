@@ -85,10 +85,10 @@ std::string NetworkBuilder::beginsWith() const {
                      context_.language.nameOf(Command::LoadNot));
 }
 
+// A function that is not built may have an output, whatever its row says.
 bool NetworkBuilder::mayHaveCoils() const {
   const Row* row = network_.function.row;
-  const bool isKnown = row != nullptr && row->built;
-  return !isKnown || row->info.output != frontend::Output::None;
+  return row == nullptr || !row->built || row->info.output != frontend::Output::None;
 }
 
 // Reports a contact or block command outside the logic of a network.

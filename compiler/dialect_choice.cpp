@@ -24,9 +24,13 @@ namespace {
 constexpr std::string_view kElfMagic = "\177ELF";
 
 // `word` must be part of the file's text.
-void reportUnknownDialect(const SourceManager& sources, FileId file, std::string_view word, Diagnostics& diagnostics) {
+SourceRange rangeIn(const SourceManager& sources, FileId file, std::string_view word) {
   const auto begin = static_cast<size_t>(word.data() - sources.text(file).data());
-  const SourceRange range = sources.range(file, begin, begin + word.size());
+  return sources.range(file, begin, begin + word.size());
+}
+
+void reportUnknownDialect(const SourceManager& sources, FileId file, std::string_view word, Diagnostics& diagnostics) {
+  const SourceRange range = rangeIn(sources, file, word);
   DiagBuilder report = diagnostics.report(diag::UnknownDialect, range);
   report << word;
   // such as nct2xx, GSK25iMc
@@ -57,6 +61,20 @@ std::string_view listOf(const SourceManager& sources, FileId file) {
     if (const std::string_view list = listOf(words.words); !list.empty()) return list;
   }
   return {};
+}
+
+// Of a mnemonic file that names another dialect by a line, or by its extension.
+void reportMnemonicFile(const SourceManager& sources, FileId file, Diagnostics& diagnostics) {
+  const std::string_view named = frontend::ladder::peekDialect(sources, file);
+  if (named.empty())
+    diagnostics.report(diag::ForeignFile, SourceRange{})
+        << sources.name(file) << "a mnemonic file of a FANUC control: name it .mne, or say --dialect fanuc";
+  else
+    diagnostics.report(diag::ForeignFile, rangeIn(sources, file, named))
+        << sources.name(file)
+        << fmt::format("a mnemonic file of a FANUC control, but its line `dialect {}` names another dialect: remove "
+                       "the line, or say --dialect fanuc",
+                       named);
 }
 
 void reportNoDialect(const SourceManager& sources, FileId file, Diagnostics& diagnostics) {
@@ -94,8 +112,7 @@ const frontend::Dialect* chooseDialect(const SourceManager& sources, std::span<c
   }
   const frontend::Dialect* found = frontend::dialectOf(sources, files[0]);
   if (found != nullptr && found != frontend::findDialect("fanuc") && isMnemonicFile(sources.text(files[0]))) {
-    diagnostics.report(diag::ForeignFile, SourceRange{})
-        << sources.name(files[0]) << "a mnemonic file of a FANUC control: name it .mne, or say --dialect fanuc";
+    reportMnemonicFile(sources, files[0], diagnostics);
     return nullptr;
   }
   if (found != nullptr) return found;

@@ -55,6 +55,26 @@ bool isNameCharacter(char c) {
   return text::isLetter(c) || text::isDigit(c) || c == '-' || c == '_' || c == '.' || c == ':';
 }
 
+bool isOfText(unsigned unit) { return unit >= ' ' || unit == '\t' || unit == '\r' || unit == '\n'; }
+
+// Whether this is the beginning of a text in UTF-16LE: an ASCII character, and a first line that has another one, such
+// as its end, and no control characters.
+bool beginsWideText(std::string_view bytes) {
+  const auto unitAt = [&](size_t at) {
+    const unsigned high = static_cast<unsigned char>(bytes[at + 1]);
+    return high << 8 | static_cast<unsigned char>(bytes[at]);
+  };
+  if (bytes.size() < 4 || bytes[1] != 0 || !isOfText(unitAt(0))) return false;
+  bool hasAnother = false;
+  for (size_t at = 2; at + 1 < bytes.size(); at += 2) {
+    const unsigned unit = unitAt(at);
+    if (!isOfText(unit)) return false;
+    hasAnother |= unit < 0x80;
+    if (unit == '\n') break;
+  }
+  return hasAnother;
+}
+
 } // namespace
 
 bool knowsEncoding(const std::string& name) {
@@ -76,10 +96,7 @@ std::optional<std::string> encoded(std::string_view text, const std::string& enc
 
 std::string shownEncoding(std::string_view bytes) {
   if (bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF")) return "UTF-16";
-  const auto isCharacter = [&](size_t at) {
-    return (bytes[at] >= ' ' || bytes[at] == '\t' || bytes[at] == '\r' || bytes[at] == '\n') && bytes[at + 1] == 0;
-  };
-  return bytes.size() >= 4 && isCharacter(0) && isCharacter(2) ? "UTF-16LE" : "";
+  return beginsWideText(bytes) ? "UTF-16LE" : "";
 }
 
 std::string guessedEncoding(std::string_view bytes) {

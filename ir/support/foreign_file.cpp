@@ -53,6 +53,12 @@ bool isNumbered(std::string_view line, size_t digits, std::string_view letters) 
 
 std::string_view wordOf(std::string_view line) { return line.substr(0, line.find_first_of(" \t(")); }
 
+// Old systems, and some transfer programs, end lines so. Nothing after the first line would be read.
+bool endsLinesWithCr(std::string_view text) {
+  const size_t cr = text.find('\r');
+  return text.find('\n') == std::string_view::npos && text.find_first_not_of('\r', cr) != std::string_view::npos;
+}
+
 // ---- kinds of the control's files
 
 bool isParameters(std::span<const std::string_view> lines) {
@@ -97,6 +103,8 @@ constexpr std::array<std::string_view, 4> kControlFiles = {
 
 // ---- other texts
 
+constexpr std::string_view kCrLines =
+    "a text without LF, whose lines end with CR alone: save it with CR LF at the ends of its lines";
 constexpr std::string_view kPartProgram = "a part program (G code), not a program of the PMC";
 constexpr std::string_view kCncParameters =
     "parameters of the CNC, not of the PMC: the control writes those of the PMC from the PMC's own screens";
@@ -136,6 +144,7 @@ std::string_view xmlOf(std::string_view text) {
 
 // "" for what may be a program.
 std::string_view foreignText(std::string_view text) {
+  if (endsLinesWithCr(text)) return kCrLines;
   const std::vector<std::string_view> lines = linesOf(text);
   if (lines.empty() || hasSections(lines)) return {};
   if (const auto kind = controlFileOf(lines)) return kControlFiles[static_cast<size_t>(*kind)];

@@ -1096,6 +1096,12 @@ class HostileInput(Cli):
             done = rungc(*command, self.file("mill.pmc", text))
             self.assertEqual(done.returncode, WRONG)
             self.assertIn(b"mill.pmc' is a mnemonic file of a FANUC control: name it .mne, or say --dialect fanuc [foreign-file]\n1 error", done.stderr)
+        for command in (["check"], ["format", "--stdout"]):
+            done = rungc(*command, self.file("mill.mne", "; a\ndialect gsk\n" + text))
+            self.assertEqual(done.returncode, WRONG)
+            self.assertIn(b"mill.mne:2:9: error: '", done.stderr)
+            self.assertIn(b"a mnemonic file of a FANUC control, but its line `dialect gsk` names another dialect: remove the line, or say --dialect fanuc [foreign-file]", done.stderr)
+        self.assertEqual(rungc("check", "--dialect", "fanuc", self.file("mill.mne", "dialect gsk\n" + text)).returncode, OK)
 
     def test_format_leaves_other_files_alone(self):
         for name, contents in (("mill.mne", b"\1\0\2\0LEVEL1.#LR\0\0"), ("mill.mne", b"FUNC END1\nLD X0.0\nOUT Y0.0\n"), ("O1.mne", b"%\nO0001\nG0 X0\nM30\n%\n")):

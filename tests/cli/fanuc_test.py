@@ -91,6 +91,37 @@ class Fanuc(unittest.TestCase):
         for name, text in (("mark.mne", "\ufeff" + LADDER), ("bare.mne", LADDER)):
             self.write(name, text.replace("\n", "\r\n"), "utf-16-le")
             self.assertIn("5 rungs, no warnings", self.run_rungc("check", name)[0])
+        self.write("bare.mne", ";Двери\r\n" + LADDER, "utf-16-le")
+        self.assertIn("5 rungs, no warnings", self.run_rungc("check", "bare.mne")[0])
+
+    def test_a_line_that_names_the_dialect(self):
+        text = LADDER.replace("0i-F PMC(MEM-B,FLT)", "NEW").replace("WRT LAMP", "WRT A0.0") + "%@4\nA0.0\nB0.0 1000 TEXT\n%\n"
+        self.write("bare.mne", text)
+        bare = json.loads(self.run_rungc("check", "--json", "bare.mne", status=WRONG)[0])
+        self.assertEqual([one["code"] for one in bare], ["unknown-pmc", "bad-listed-message", "bad-listed-message"])
+        for before, encoding in (("dialect fanuc\n", "utf-8"), ("; a\ndialect fanuc\n", "utf-8"), ("dialect fanuc\n", "utf-16"), ("Dialect FANUC\n", "utf-8")):
+            self.write("named.mne", before + text, encoding)
+            reports = [json.loads(self.run_rungc("check", "--json", "named.mne", status=WRONG)[0])]
+            if "dialect fanuc" in before:
+                done = subprocess.run([RUNGC, "check", "--json", "-"], input=(self.folder / "named.mne").read_bytes(), capture_output=True, timeout=patience(), check=False)
+                reports.append(json.loads(done.stdout))
+            for named in reports:
+                self.assertEqual([(one["code"], one["line"] - before.count("\n"), one["column"], one["message"]) for one in named],
+                                 [(one["code"], one["line"], one["column"], one["message"]) for one in bare])
+
+    def test_a_message_without_a_number(self):
+        self.write("bad.mne", LADDER + "%@4\nA0.0\n%\n")
+        said = self.run_rungc("check", "bad.mne", status=WRONG)[1]
+        self.assertIn("a message is written `A0.0 1000 TEXT`; the number is missing [bad-listed-message]", said)
+        report, = json.loads(self.run_rungc("check", "--json", "bad.mne", status=WRONG)[0])
+        self.assertEqual((report["code"], report["line"], report["column"]), ("bad-listed-message", LADDER.count("\n") + 2, 1))
+
+    def test_a_file_without_line_feeds(self):
+        self.write("mac.mne", LADDER.replace("\n", "\r"))
+        for command in (("check",), ("format", "--stdout"), ("import",)):
+            said = self.run_rungc(*command, "mac.mne", status=WRONG)[1]
+            self.assertIn("is a text without LF, whose lines end with CR alone: save it with CR LF at the ends of its lines", said)
+            self.assertNotIn("END1", said)
 
     def test_the_whole_scenario_on_all_engines(self):
         self.assertIn("1 passed, 0 failed", self.run_rungc("test", "--engine", "all", "lamp.scn")[0])

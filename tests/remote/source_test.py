@@ -129,6 +129,14 @@ class Reload(SourceHost):
         answer = self.compiled(packed({name: wrong.read_bytes()}, [name], b"gsk"))
         self.assertEqual((answer["state"], answer["report"]), ("errors", said))
 
+    def test_an_error_at_a_line_of_one_word(self):
+        wrong = self.source("%@4\nA0.0\n%\n", "wrong.mne")
+        self.assertIn(f"{wrong}:2:1: error: a message is written `A0.0 1000 TEXT`; the number is missing", self.ctl("reload", wrong, status=WRONG))
+        answer = json.loads(subprocess.run([BIN / "rungctl", "reload", wrong, "--json"], capture_output=True, text=True,
+                                           env=self.environment).stdout)
+        self.assertEqual((answer["ok"], answer["diagnostics"][0]["line"]), (False, 2))
+        self.assertIn("running: ", self.ctl("status"))
+
     def test_what_is_lost_asks_first(self):
         with_symbol = self.source(PROGRAM.replace("symbol GUARD X0.2", "symbol GUARD X0.2\nsymbol COUNT D8"))
         self.ctl("reload", with_symbol)

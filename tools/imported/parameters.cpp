@@ -170,7 +170,7 @@ public:
         "# Made by rungc import from {}{}{}: what the control keeps while it is off.\n"
         "# A scenario takes it by `include FILE`, retained memory by `rungc run -i PROGRAM --retain NAME < FILE`.\n"
         "# Only values other than 0: {} of {}.\n{}",
-        inBrief(source_.name), file.title.empty() ? "" : " ", file.title, written_, file.parameters.size(), text_);
+        inBrief(source_.name), file.title.empty() ? "" : " ", file.title, written_, values_, text_);
   }
 
 private:
@@ -183,6 +183,7 @@ private:
     if (run.range == nullptr || run.range->form == Form::NoValue)
       return remark(at, fmt::format("{} (up to line {}): {}; left out", numbersOf(run), run.parameters.back().at.line,
                                     run.range == nullptr ? "not known" : run.range->what));
+    values_ += run.parameters.size();
     if (!run.range->isCertain)
       remark(at, fmt::format("{}: {}; that is likely, not certain: compare with the control's screen", numbersOf(run),
                              run.range->what));
@@ -256,6 +257,7 @@ private:
   std::vector<Remark>& remarks_;
   Source source_;
   std::string text_;
+  size_t values_ = 0; // of ranges that are taken
   size_t written_ = 0;
 };
 

@@ -34,8 +34,12 @@ const Type* typeOf(std::string_view word) {
 
 // A name of a scenario: no blank, and nothing that would end the word.
 bool isName(std::string_view text) {
-  return !text.empty() && text[0] != '#' && text.find_first_of(" \t\"#") == std::string_view::npos &&
-         asShown(text) == text;
+  return !text.empty() && text.find_first_of(" \t\"") == std::string_view::npos && asShown(text) == text;
+}
+
+// In quotes if it has a #, which begins a comment where a word begins with it.
+std::string written(const std::string& name) {
+  return name.find('#') == std::string::npos ? name : fmt::format("\"{}\"", name);
 }
 
 class Reader {
@@ -117,7 +121,7 @@ private:
     if (!text::fitsBits(value, type->bits))
       return wrong(group[1].at, fmt::format("found '{}', expected a whole number of {} bit{}", inBrief(group[1].text),
                                             type->bits, type->bits == 1 ? "" : "s"));
-    const std::string name = address ? nameOf(*address) : group[0].text;
+    const std::string name = address ? nameOf(*address) : written(group[0].text);
     text_ +=
         fmt::format("set {}{} {}\n", name, type->bits > 8 ? fmt::format(":{}", type->bits / 8) : "", group[1].text);
   }

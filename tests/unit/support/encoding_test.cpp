@@ -52,6 +52,10 @@ TEST(Encoding, Names) {
 TEST(Encoding, OfATextThatDoesNotDeclareIt) {
   const auto wide = [](std::string_view text) { return encoded(text, "UTF-16LE").value(); };
   EXPECT_EQ(guessedEncoding(wide("%@3\r\n")), "UTF-16LE");
+  EXPECT_EQ(guessedEncoding(wide(";Двери\r\n%@3\r\n")), "UTF-16LE");
+  EXPECT_EQ(guessedEncoding(wide(";急停")), "UTF-8"); // nothing shows that it is a text
+  EXPECT_EQ(guessedEncoding(wide(";急停\n")), "UTF-16LE");
+  EXPECT_EQ(guessedEncoding(wide("P\x05\n")), "UTF-8");
   EXPECT_EQ(guessedEncoding("\xFF\xFE" + wide("é")), "UTF-16");
   EXPECT_EQ(guessedEncoding(std::string_view("A\0\0B", 4)), "UTF-8");
   EXPECT_EQ(guessedEncoding(""), "UTF-8");

@@ -73,6 +73,9 @@ TEST(ForeignFile, BinaryFilesAreNamedWithTheWayToAMnemonicFile) {
 
 TEST(ForeignFile, TextsOfOtherControls) {
   EXPECT_TRUE(foreign("%\nO1234 (PART)\nG0 X0\n").starts_with("a part program"));
+  EXPECT_TRUE(foreign("%@3\rRD X8.4\r\r").starts_with("a text without LF"));
+  EXPECT_EQ(foreign("%@3\r"), "a program");
+  EXPECT_EQ(foreign("%@3\r\nRD X8.4\r"), "a program");
   EXPECT_TRUE(foreign("%\n<PART>\nG0 X0\n").starts_with("a part program"));
   EXPECT_TRUE(foreign("%\nN00000Q1P00000010\nN00001Q1P0\n").starts_with("parameters of the CNC"));
   EXPECT_TRUE(foreign("LD X0.0\nOUT Y0.0\nFUNC END1\n").starts_with("a command list of a GSK control"));

@@ -1,10 +1,14 @@
 // See ladder_text.h.
 #include "frontend/dialects/fanuc/read/ladder_text.h"
 
-#include "frontend/ladder/text/ladder_file.h"
+#include "frontend/dialects/fanuc/language.h"
+#include "frontend/network/read/reading.h"
 
 namespace rung::frontend::fanuc {
 
-bool isLadderText(const SourceManager& sources, FileId file) { return !ladder::peekDialect(sources, file).empty(); }
+// Which files are lists is the same for each PMC.
+bool isLadderText(const SourceManager& sources, FileId file) {
+  return network::isLadder(languageOf(Pmc::MemB), sources, file);
+}
 
 } // namespace rung::frontend::fanuc

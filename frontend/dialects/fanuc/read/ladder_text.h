@@ -7,7 +7,8 @@
 
 namespace rung::frontend::fanuc {
 
-// Whether the file is ladder text, which begins with its dialect.
+// Whether the file is ladder text. A mnemonic file may name its dialect, too: text before the first section is a
+// comment.
 bool isLadderText(const SourceManager& sources, FileId file);
 
 // Calls take(name, text) for each statement `KEYWORD NAME "text"` of ladder text. Others are reported by its parser.

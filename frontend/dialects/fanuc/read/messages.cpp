@@ -43,6 +43,11 @@ std::optional<uint32_t> takeNumber(std::string_view& text) {
   return base + static_cast<uint32_t>(*number);
 }
 
+std::string notA(std::string_view text, std::string_view expected) {
+  return text.empty() ? fmt::format("{} is missing", expected)
+                      : fmt::format("found '{}' in place of {}", text, expected);
+}
+
 class MessageReader {
 public:
   MessageReader(const network::Language& language, Diagnostics& diagnostics)
@@ -53,8 +58,7 @@ public:
     const network::AreaInfo& area = language_.at(areas::kA);
     const std::optional<uint32_t> bit = bitOf(place.text);
     if (!bit) {
-      diagnostics_.report(diag::BadListedMessage, range)
-          << fmt::format("found '{}' in place of the bit of A", place.text);
+      diagnostics_.report(diag::BadListedMessage, range) << notA(place.text, "the bit of A");
       return;
     }
     if (area.room(*bit / 8) == 0) {
@@ -64,7 +68,7 @@ public:
     std::string_view text = text::trimmed(line.text);
     const std::optional<uint32_t> number = takeNumber(text);
     if (!number) {
-      diagnostics_.report(diag::BadListedMessage, range) << fmt::format("found '{}' in place of the number", text);
+      diagnostics_.report(diag::BadListedMessage, range) << notA(text, "the number");
       return;
     }
     const auto [first, isNew] = seen_.emplace(*bit, range);
@@ -93,7 +97,8 @@ std::optional<MessageLine> messageIn(const SourceLine& line) {
     return Word{part, line.range(at, at + part.size()), false};
   };
   const size_t blank = std::min(text.find_first_of(" \t"), text.size());
-  return MessageLine{wordOf(text.substr(0, blank)), wordOf(text::trimmed(text.substr(blank)))};
+  const size_t rest = std::min(text.find_first_not_of(" \t", blank), text.size()); // a line of one word has no text
+  return MessageLine{wordOf(text.substr(0, blank)), wordOf(text.substr(rest))};
 }
 
 std::vector<Message> readMessages(const network::Language& language, const SourceManager& sources,

@@ -1,6 +1,7 @@
 // Collects the lines between networks as items, and assigns them to what they belong to.
 #include "frontend/network/read/gaps.h"
 
+#include <algorithm>
 #include <iterator>
 #include <utility>
 

@@ -63,12 +63,13 @@ std::string_view listOf(const SourceManager& sources, FileId file) {
   return {};
 }
 
+constexpr std::string_view kMnemonicFile = "a mnemonic file of a FANUC control: name it .mne, or say --dialect fanuc";
+
 // Of a mnemonic file that names another dialect by a line, or by its extension.
 void reportMnemonicFile(const SourceManager& sources, FileId file, Diagnostics& diagnostics) {
   const std::string_view named = frontend::ladder::peekDialect(sources, file);
   if (named.empty())
-    diagnostics.report(diag::ForeignFile, SourceRange{})
-        << sources.name(file) << "a mnemonic file of a FANUC control: name it .mne, or say --dialect fanuc";
+    diagnostics.report(diag::ForeignFile, SourceRange{}) << sources.name(file) << kMnemonicFile;
   else
     diagnostics.report(diag::ForeignFile, rangeIn(sources, file, named))
         << sources.name(file)
@@ -83,7 +84,7 @@ void reportNoDialect(const SourceManager& sources, FileId file, Diagnostics& dia
   frontend::LineWords words;
   for (frontend::SourceLine line; words.words.empty() && lines.next(line);) splitWords(line, {}, words);
   if (isMnemonicFile(sources.text(file)))
-    report.note("it is a mnemonic file of a FANUC control: name it .mne, or say --dialect fanuc");
+    report.note(fmt::format("it is {}", kMnemonicFile));
   else if (const std::string_view list = listOf(sources, file); !list.empty())
     report.note(list);
   else if (frontend::ladder::isListLine(words.words))

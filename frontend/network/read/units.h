@@ -50,7 +50,7 @@ private:
   uint32_t levelCount() const { return static_cast<uint32_t>(language_.levels.size()); }
   // The first level after `level` whose end was found, otherwise levelCount().
   uint32_t nextEnded(uint32_t level) const;
-  // Whether there is no command.
+  // Whether no command has been read.
   bool isEmpty() const;
   // The end after which subprograms must follow.
   const Row& lastEnd() const;

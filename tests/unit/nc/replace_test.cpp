@@ -98,7 +98,7 @@ TEST(ControlReplace, NctFinishesItsFunction) {
   EXPECT_FALSE(functions.busy(0));
 }
 
-// The list of the screen stays; the host is told that the message has ended and begun.
+// The list on the screen stays the same; for the host the message ends and begins anew.
 TEST(ControlReplace, NctChangesATextOfAMessage) {
   const auto build = [](test::TestProgram& program, const char* text) {
     program.texts = {{5, 0, text}, {6, 0, "THE SAME"}};

@@ -370,10 +370,7 @@ public:
 private:
   using Kind = network::Item::Kind;
 
-  // The code without the columns of a table.
-  static Word nameOf(const Section& section) {
-    return {section.code.substr(0, section.code.find_first_of("( \t")), section.range, false};
-  }
+  static Word nameOf(const Section& section) { return {section.name(), section.range, false}; }
   void lines(const Section& section) {
     const bool hasMessages = section.kind == Section::Kind::Messages;
     eachLine(context_.sources, file_, section, [&](const SourceLine& line) {
@@ -421,8 +418,7 @@ void MnemonicFile::read(Context& context, network::UnitAssembler& units) const {
   for (const Section& section : sections()) {
     if (!section.isClosed)
       context.diagnostics.report(diag::IncompleteFile, section.range)
-          << fmt::format("the section {} does not end with a line that is %",
-                         section.code.substr(0, section.code.find_first_of("( \t")));
+          << fmt::format("the section {} does not end with a line that is %", section.name());
     if (section.kind == Section::Kind::Unknown)
       context.diagnostics.report(diag::UnknownSection, section.range) << section.code;
     if (section.kind == Section::Kind::Outside) context.diagnostics.report(diag::TextOutsideSection, section.range);

@@ -20,6 +20,9 @@ struct Section {
   uint32_t first = 0;        // its lines, without those with its code and its end: first to last - 1
   uint32_t last = 0;
   bool isClosed = true; // by a line that is %
+
+  // The code without the columns of a table.
+  std::string_view name() const { return code.substr(0, code.find_first_of("( \t")); }
 };
 
 struct FileSections {

@@ -56,8 +56,7 @@ inline constexpr Row kTimingRows[] = {
         "ring counter, preset in C (ctr.N)", "6.3, high",
         "Counts rising edges of ACT. Up: from the start value (CN0) to the preset, the next pulse begins again. Down: "
         "from the preset to CN0. RST=1 sets the start value (down: the preset) and W1=0. W1=1 when a count arrives at "
-        "the end of its "
-        "way. Preset and value are words from C4(n-1) on, binary (F17).",
+        "the end of its way. Preset and value are words from C4(n-1) on, binary (F17).",
         "RD R0.0\nRD.STK R0.1\nRD.STK R0.2\nRD.STK X9.0\nSUB 5\n1\nWRT Y9.0", kCounterPage),
     rowOf(withPlaces(counterShape({number("number", 1, 300), number("preset", 0, 32767)}, Row::Numbers::Counter),
                      {areas::kC, kFixedCounters, 2}),

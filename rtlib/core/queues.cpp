@@ -1,6 +1,8 @@
 // Tickets and the function table for generated code.
 #include "rtlib/core/queues.h"
 
+#include <cassert>
+
 namespace rung::core {
 
 namespace {
@@ -109,6 +111,106 @@ void ServiceQueue::restart() noexcept {
   ServiceReply reply;
   for (uint32_t i = 0; i < kMaxPending && replies_.pop(reply);) ++i;
   lostBefore_.store(replies_.lost(), std::memory_order_relaxed);
+}
+
+// ---- state -------------------------------------------------------------------------------------------------------
+
+namespace {
+
+// Only the values that are used.
+template <class Archive, class Value>
+void archiveValues(Archive& archive, Value* values, uint32_t count) {
+  for (uint32_t i = 0; i < count; ++i) archive(values[i]);
+}
+
+template <class T>
+uint32_t lengthOf(const Ring<T>& ring) noexcept {
+  uint32_t length = 0;
+  while (ring.peek(length) != nullptr) ++length;
+  return length;
+}
+
+bool isPossible(const Loader& loader, uint32_t count, uint32_t most) noexcept { return loader.good() && count <= most; }
+
+} // namespace
+
+void ServiceQueue::save(Saver& saver) const noexcept {
+  const auto used = static_cast<uint32_t>(
+      std::ranges::count_if(records_, [](uint32_t ticket) { return ticket != 0; }, &ServiceRecord::ticket));
+  saver(lastTicket_, used);
+  for (const ServiceRecord& record : records_) {
+    if (record.ticket == 0) continue;
+    saver(record.ticket, record.state, record.resultCount);
+    archiveValues(saver, record.results, record.resultCount);
+  }
+  const uint32_t asked = lengthOf(requests_);
+  saver(asked);
+  for (uint32_t i = 0; i < asked; ++i) {
+    ServiceRequest request = *requests_.peek(i);
+    saver(request.ticket, request.service, request.argCount);
+    archiveValues(saver, request.args, request.argCount);
+  }
+  const uint32_t answered = lengthOf(replies_);
+  saver(answered);
+  for (uint32_t i = 0; i < answered; ++i) {
+    ServiceReply reply = *replies_.peek(i);
+    reply.resultCount = bounded(reply.resultCount);
+    saver(reply.ticket, reply.state, reply.resultCount);
+    archiveValues(saver, reply.results, reply.resultCount);
+  }
+}
+
+void ServiceQueue::load(Loader& loader) noexcept {
+  restart();
+  for (ServiceRequest dropped; requests_.pop(dropped);) assert(false); // only skips those of before
+  loader(lastTicket_);
+  loadRecords(loader);
+  loadRequests(loader);
+  loadReplies(loader);
+  if (!loader.good()) restart();
+}
+
+void ServiceQueue::loadRecords(Loader& loader) noexcept {
+  uint32_t count = 0;
+  loader(count);
+  if (!isPossible(loader, count, kRecords)) return loader.fail();
+  for (; count != 0 && loader.good(); --count) {
+    ServiceRecord record;
+    loader(record.ticket, record.state, record.resultCount);
+    if (!isPossible(loader, record.resultCount, RUNG_MAX_SERVICE_ARGS)) return loader.fail();
+    archiveValues(loader, record.results, record.resultCount);
+    if (record.ticket == 0 || record.state > RUNG_SERVICE_ERROR) return loader.fail();
+    pending_ += record.state == RUNG_SERVICE_PENDING ? 1 : 0;
+    records_[record.ticket % kRecords] = record;
+  }
+  if (pending_ > kMaxPending) loader.fail();
+}
+
+void ServiceQueue::loadRequests(Loader& loader) noexcept {
+  uint32_t count = 0;
+  loader(count);
+  if (!isPossible(loader, count, kMaxPending)) return loader.fail();
+  for (; count != 0 && loader.good(); --count) {
+    ServiceRequest request;
+    loader(request.ticket, request.service, request.argCount);
+    if (!isPossible(loader, request.argCount, RUNG_MAX_SERVICE_ARGS)) return loader.fail();
+    archiveValues(loader, request.args, request.argCount);
+    if (request.service < nameCount_) request.name = &names_[request.service];
+    if (!requests_.push(request)) return loader.fail();
+  }
+}
+
+void ServiceQueue::loadReplies(Loader& loader) noexcept {
+  uint32_t count = 0;
+  loader(count);
+  if (!isPossible(loader, count, kMaxPending)) return loader.fail();
+  for (; count != 0 && loader.good(); --count) {
+    ServiceReply reply;
+    loader(reply.ticket, reply.state, reply.resultCount);
+    if (!isPossible(loader, reply.resultCount, RUNG_MAX_SERVICE_ARGS)) return loader.fail();
+    archiveValues(loader, reply.results, reply.resultCount);
+    if (!replies_.push(reply)) return loader.fail();
+  }
 }
 
 } // namespace rung::core

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "rtlib/core/archive.h"
 #include "rtlib/core/handover.h"
 #include "rung/program.h"
 
@@ -102,10 +103,19 @@ public:
   // replies to requests taken before count as stray.
   void restart() noexcept;
 
+  // The tickets, the requests that wait and the replies that have not been delivered. Scan thread,
+  // between scans. What a loaded queue asks its host for is what it had asked for when it was saved; while it is
+  // loaded, the host's side must not be active. A state that is impossible leaves the queue as after a restart.
+  void save(Saver& saver) const noexcept;
+  void load(Loader& loader) noexcept;
+
 private:
   const ServiceRecord& recordOf(uint32_t ticket) const noexcept { return records_[ticket % kRecords]; }
   uint32_t freeTicket() noexcept;
   void deliverAll() noexcept;
+  void loadRecords(Loader& loader) noexcept;
+  void loadRequests(Loader& loader) noexcept;
+  void loadReplies(Loader& loader) noexcept;
 
   ServiceRecord records_[kRecords];
   uint32_t lastTicket_ = 0;

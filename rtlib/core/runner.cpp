@@ -49,6 +49,15 @@ void Runner::reset() noexcept {
   stopped_ = false;
 }
 
+void Runner::resume(bool faulted, bool stopped) noexcept {
+  assert(!inTask_);
+  ctx_->extra_weight = 0;
+  position_ = 0;
+  faulted_ = faulted;
+  stopped_ = stopped;
+  if (faulted || stopped) endForces();
+}
+
 // ---- forces ------------------------------------------------------------------------------------------------------
 
 void Runner::force(const Code& code, std::span<const ForcedBits> bits) noexcept {

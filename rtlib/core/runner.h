@@ -106,6 +106,9 @@ public:
 
   // Clears the fault, all runs under way and the position in the schedule; the clock continues.
   void reset() noexcept;
+  // Continues from a saved state, whose clock, fault and part states are in the context and in `parts` already: between
+  // two scans. Forces stay in effect.
+  void resume(bool faulted, bool stopped) noexcept;
 
   // False: a fault has occurred, now or before, or the call comes from within a task.
   bool runTask(uint32_t task) noexcept;

@@ -816,6 +816,28 @@ class Instance(_Closing):
         stored."""
         _call(_library.rung_instance_flush, self)
 
+    # -- state --
+
+    def save(self):
+        """The state between two scans, as bytes: everything on which further scans depend except the host and its
+        settings. None: a scan has not ended. Error: WRONG_STATE, the program is off."""
+        size = ctypes.c_size_t()
+        if _call(_library.rung_instance_save, self, None, 0, byref(size)) == Status.LATER:
+            return None
+        state = ctypes.create_string_buffer(size.value)
+        _call(_library.rung_instance_save, self, state, size.value, byref(size))
+        return state.raw
+
+    def load(self, state):
+        """Continues from a state of the same program, which must be on. Errors: REFUSED, of another program or damaged,
+        and then it is off; WRONG_STATE, other cells are forced than when it was saved."""
+        _call(_library.rung_instance_load, self, state, len(state))
+
+    def set_clock(self, now_us):
+        """Sets the program's clock, up to one hour ahead; timers see the difference as elapsed time. Error:
+        BAD_ARGUMENT."""
+        _call(_library.rung_instance_set_clock, self, now_us)
+
     def unsaved(self):
         """Why the last attempt to write retained memory failed; None: it did not fail."""
         text = ctypes.create_string_buffer(512)

@@ -203,6 +203,111 @@ ReplaceResult Instance::replace(Replacement& replacement, OwnContents own) {
   return ReplaceResult::Replaced;
 }
 
+// ---- state -------------------------------------------------------------------------------------------------------
+
+namespace {
+
+// A state begins with this, its forced bits, and StateRun.
+struct StateHead {
+  static constexpr uint32_t kVersion = 1;
+  uint32_t version = kVersion;
+  uint64_t code = 0, layout = 0;
+  uint32_t size = 0;
+  uint32_t forced = 0; // bits
+
+  bool isOf(const rung_program& program) const {
+    return version == kVersion && code == program.code_hash && layout == program.layout_hash &&
+           size == program.memory_size;
+  }
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(version, code, layout, size, forced);
+  }
+};
+
+struct StateRun {
+  int64_t nowUs = 0;
+  bool faulted = false, stopped = false;
+  rung_fault fault{};
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(nowUs, faulted, stopped, fault.code, fault.rung, fault.line, fault.task);
+  }
+};
+
+} // namespace
+
+bool Instance::save(core::Saver& saver) const noexcept {
+  if (!atListStart()) return false;
+  const rung_program& of = program();
+  const std::span<const core::ForcedBits> forced = runner_.forced();
+  saver(StateHead{.code = of.code_hash,
+                  .layout = of.layout_hash,
+                  .size = of.memory_size,
+                  .forced = static_cast<uint32_t>(forced.size())});
+  for (const core::ForcedBits& bits : forced) saver(bits.offset, bits.mask, bits.value);
+  saver(StateRun{.nowUs = ctx_->now_us, .faulted = faulted(), .stopped = stopped(), .fault = ctx_->fault});
+  saver.bytes(block());
+  for (const core::PartState& part : loaded_.parts) saver(part.pc, part.part, part.budget);
+  port_->services.save(saver);
+  return true;
+}
+
+// Whether this is a state of the program with the forces of now.
+LoadResult Instance::checkState(core::Loader& loader) const noexcept {
+  StateHead head;
+  loader(head);
+  if (!loader.good() || head.version != StateHead::kVersion) return LoadResult::Damaged;
+  if (!head.isOf(program())) return LoadResult::OtherProgram;
+  const std::span<const core::ForcedBits> forced = runner_.forced();
+  bool same = head.forced == forced.size();
+  for (uint32_t i = 0; i < head.forced && loader.good(); ++i) {
+    core::ForcedBits bits;
+    loader(bits.offset, bits.mask, bits.value);
+    same = same && bits.offset == forced[i].offset && bits.mask == forced[i].mask && bits.value == forced[i].value;
+  }
+  if (!loader.good()) return LoadResult::Damaged;
+  return same ? LoadResult::Loaded : LoadResult::OtherForces;
+}
+
+// Compiled rungs rely on bits that are 0 or 1.
+bool Instance::hasOnlyBits() const noexcept {
+  for (const rung_space& space : std::span(program().spaces, program().space_count))
+    for (const rung_range& range : std::span(space.ranges, space.range_count)) {
+      if (range.repr != RUNG_REPR_BYTE_PER_BIT) continue;
+      const auto bits = block().subspan(range.offset, size_t{8} * range.byte_count);
+      if (std::ranges::any_of(bits, [](uint8_t bit) { return bit > 1; })) return false;
+    }
+  return true;
+}
+
+void Instance::loadState(core::Loader& loader) noexcept {
+  StateRun run;
+  loader(run);
+  ctx_->now_us = run.nowUs;
+  ctx_->fault = run.fault;
+  loader.bytes(block());
+  if (!hasOnlyBits()) loader.fail();
+  for (uint32_t task = 0; task < program().task_count; ++task) {
+    core::PartState& part = loaded_.parts[task];
+    loader(part.pc, part.part, part.budget);
+    const bool isChunk = part.pc < program().chunk_count || part.pc == RUNG_PC_DONE;
+    if (!isChunk || part.part >= std::max(1u, program().tasks[task].part_count)) loader.fail();
+  }
+  port_->messages.drop();
+  port_->services.load(loader);
+  runner_.resume(run.faulted, run.stopped);
+}
+
+LoadResult Instance::load(core::Loader& loader) noexcept {
+  if (const LoadResult checked = checkState(loader); checked != LoadResult::Loaded) return checked;
+  loadState(loader);
+  if (loader.good()) return LoadResult::Loaded;
+  coldStart();
+  return LoadResult::Damaged;
+}
+
 // ---- run ---------------------------------------------------------------------------------------------------------
 
 void Instance::scan() {

@@ -13,6 +13,7 @@
 
 #include "rtlib/change/forcing.h"
 #include "rtlib/change/replacement.h"
+#include "rtlib/core/archive.h"
 #include "rtlib/core/queues.h"
 #include "rtlib/core/runner.h"
 #include "rtlib/load/engine.h"
@@ -57,6 +58,13 @@ public:
   virtual void ended(const Instance& instance, uint32_t task) = 0;
 };
 
+enum class LoadResult : uint8_t {
+  Loaded,
+  OtherProgram, // the state is that of another program, or of another version of it
+  OtherForces,  // other cells are forced than when it was saved, or with other values
+  Damaged,      // it is cut off, or says what cannot be; the instance is as after a cold start
+};
+
 class Instance {
 public:
   // The program of `runnable` and the hooks outlive the instance. The instance starts cold.
@@ -99,6 +107,15 @@ public:
   // and cells that only that program has begin as `own` says. If the result is not Replaced, nothing has happened.
   // Allocates nothing, except in onReplace.
   ReplaceResult replace(Replacement& replacement, OwnContents own = OwnContents::Initial);
+  // The state between two scans, with everything on which further scans depend except the control, its host and the
+  // code of forces: memory with the compiler's slots, clock, fault, runs that are cut into parts, tickets, requests and
+  // replies. The same program has the same states on every engine and machine. `save` is for the scan
+  // thread and allocates nothing; false: within a scan.
+  bool save(core::Saver& saver) const noexcept;
+  // Counts of lost messages and refused requests begin at 0 then. Nothing else may be using the host's side of the
+  // queues, whose messages are dropped.
+  LoadResult load(core::Loader& loader) noexcept;
+
   // The number of programs that have taken over. Places that were looked up under another number must be looked up
   // again.
   uint32_t generation() const { return generation_; }
@@ -185,6 +202,9 @@ private:
     port_->services.setServices(loaded_.services, loaded_.services != nullptr ? program().service_count : 0);
   }
   void resetRun();
+  LoadResult checkState(core::Loader& loader) const noexcept;
+  void loadState(core::Loader& loader) noexcept;
+  bool hasOnlyBits() const noexcept;
   static void stepHook(void* self, uint32_t work);
   static void faultHook(void* self);
   static void latchHook(void* self, uint32_t task);

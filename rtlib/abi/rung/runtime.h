@@ -583,6 +583,28 @@ RUNG_API int32_t rung_instance_flush(rung_instance* instance);
  * fail (see RUNG_STATE_UNSAVED). [any] */
 RUNG_API int32_t rung_instance_unsaved(const rung_instance* instance, char* text, size_t bytes);
 
+/* ---- state ------------------------------------------------------------------------------------------------------ */
+
+/* The state between two scans as bytes: everything on which further scans depend except the host and the settings that
+ * it has made. It includes the memory with the compiler's own cells, the clock, a fault, the operator's stop, the
+ * tickets of requests with the requests and replies that wait, the control's handshakes and messages, and the number of
+ * scans. The same program has the same states on every engine and machine. */
+
+/* Writes the state to `bytes`; `used` receives its size. A null pointer with size 0 only asks for the size. RUNG_LATER:
+ * within a scan. RUNG_BAD_ARGUMENT: the state is larger than `size`; the contents of `bytes` are unspecified.
+ * RUNG_WRONG_STATE: off, or a simulated control is around the program. [rt] */
+RUNG_API int32_t rung_instance_save(const rung_instance* instance, void* bytes, size_t size, size_t* used);
+
+/* Continues from a state of the same program, which must be switched on. Messages that wait for the host stay. No other
+ * thread may take requests or answer them meanwhile; requests that had been taken when the state was saved are open
+ * again, and wait for an answer by their tickets. RUNG_REFUSED: a state of another program, or damaged; after a damaged
+ * one the program is off. RUNG_WRONG_STATE: other cells are forced than when it was saved, or with other values. */
+RUNG_API int32_t rung_instance_load(rung_instance* instance, const void* bytes, size_t size);
+
+/* Sets the program's clock, between two slices; timers see the difference as elapsed time. RUNG_BAD_ARGUMENT: it would
+ * go back, or advance by more than an hour. [rt] */
+RUNG_API int32_t rung_instance_set_clock(rung_instance* instance, int64_t now_us);
+
 /* ---- profile ---------------------------------------------------------------------------------------------------- */
 
 typedef struct rung_profile {

@@ -299,6 +299,17 @@ public:
     return each<rung_force_info>([this](uint32_t i, auto* out) { return rung_instance_forced(handle(), i, out); });
   }
 
+  // The state between two scans; nothing: a scan has not ended.
+  std::optional<std::vector<uint8_t>> save() const {
+    size_t size = 0;
+    if (check(rung_instance_save(handle(), nullptr, 0, &size)) == RUNG_LATER) return std::nullopt;
+    std::vector<uint8_t> state(size);
+    check(rung_instance_save(handle(), state.data(), state.size(), &size));
+    return state;
+  }
+  void load(std::span<const uint8_t> state) { check(rung_instance_load(handle(), state.data(), state.size())); }
+  void setClock(int64_t nowUs) { check(rung_instance_set_clock(handle(), nowUs)); }
+
   // The profile of the rung with this index in the program's tables; nothing: there are not that many.
   std::optional<rung_profile> profile(uint32_t index) const {
     auto out = sized<rung_profile>();

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "rtlib/core/archive.h"
 #include "rtlib/core/queues.h"
 #include "rtlib/retain/retained_memory.h"
 #include "rtlib/run/instance.h"
@@ -201,6 +202,12 @@ public:
   virtual std::string memoryText(std::string_view shown, uint32_t bytes) const {
     return (void)bytes, std::string(shown);
   }
+
+  // The state of the control, beside that of its instance (Instance::save): handshakes under way, messages that are
+  // shown, what it has seen of signals. What the machine's configuration has told it is not a part. `load` takes what a
+  // control of the same dialect has saved, with the same program in the instance. `save` allocates nothing.
+  virtual void save(core::Saver& saver) const noexcept { (void)saver; }
+  virtual void load(core::Loader& loader) { (void)loader; }
 
   // Whether the schedule has slots (Instance::slot).
   virtual bool runsInSlots() const { return false; }

@@ -179,6 +179,10 @@ inline constexpr uint32_t kByBit = 1u << 17;            // the message belongs t
 struct MessageValues {
   uint32_t number, subId, par[3];
   bool operator==(const MessageValues&) const = default;
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(number, subId, par[0], par[1], par[2]);
+  }
 };
 inline MessageValues valuesOf(const rung_message& message) {
   const auto both = static_cast<uint64_t>(message.value);

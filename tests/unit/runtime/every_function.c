@@ -38,6 +38,7 @@ static void instances(rung_instance* plc) {
   rung_value value = {0};
   uint32_t line = 0;
   char text[8];
+  size_t size = 0;
   BAD_HANDLE(rung_instance_power_on(plc, RUNG_COLD));
   BAD_HANDLE(rung_instance_power_off(plc));
   BAD_HANDLE(rung_instance_stop(plc));
@@ -84,6 +85,9 @@ static void instances(rung_instance* plc) {
   BAD_HANDLE(rung_instance_keep(plc, "file"));
   BAD_HANDLE(rung_instance_flush(plc));
   BAD_HANDLE(rung_instance_unsaved(plc, text, sizeof text));
+  BAD_HANDLE(rung_instance_save(plc, text, sizeof text, &size));
+  BAD_HANDLE(rung_instance_load(plc, text, sizeof text));
+  BAD_HANDLE(rung_instance_set_clock(plc, 0));
   BAD_HANDLE(rung_instance_profile(plc, 0, &profile));
   BAD_HANDLE(rung_instance_worst_rung(plc, &profile));
   BAD_HANDLE(rung_instance_clear_profile(plc));

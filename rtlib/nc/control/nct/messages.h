@@ -25,6 +25,11 @@ class Messages {
     bool clearing; // it disappears at the end of this cycle
     Renewal renewal;
     rung_message message;
+    template <class Archive>
+    void state(Archive& archive) {
+      archive(code, clearing, message.op, message.number, message.channel, message.index, message.value, message.real,
+              message.rung);
+    }
   };
 
 public:
@@ -61,6 +66,12 @@ public:
   void timeSlice(const SignalMemory& signals, SignalWord& common, Slice slice, uint32_t lost);
   // Called after a PLC cycle; if it was not called, the first time slice of the next cycle does its work.
   void endCycle();
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(list_, cleared_, lost_, cancel_, pressed_, ownSignal_);
+    if constexpr (Archive::kLoads) changed_ = true;
+  }
 
   std::vector<ShownMessage> shown(const rung_program& program) const;
   bool shows(std::span<const ShownMessage> these) const noexcept;

@@ -41,6 +41,13 @@ public:
   // The time-slice memory, once the program has been prepared.
   const nct::SignalMemory& signals() const { return ts_; }
 
+  void save(core::Saver& saver) const noexcept override { saver(*this); }
+  void load(core::Loader& loader) override { loader(*this); }
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(messages_, functions_, now_, timeSlices_, cycles_, slice_, retainedLost_);
+  }
+
   NctFunctions* functions(uint32_t channel) override {
     return channel < functions_.size() ? &functions_[channel] : nullptr;
   }

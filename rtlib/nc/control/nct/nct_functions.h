@@ -48,6 +48,11 @@ public:
   bool busy(uint32_t line) const override { return line < kLines && phases_[line] != Phase::Idle; }
   void abort() override;
 
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(phases_, strobes_);
+  }
+
 private:
   enum class Phase : uint8_t { Idle, Strobe, Open };
 

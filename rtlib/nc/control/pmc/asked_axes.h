@@ -22,6 +22,11 @@ public:
   // Runs before the program in every slot. `served`: a CNC carries out the commands.
   void step(const pmc::SignalsIo& io, core::ServiceQueue& services, bool served);
 
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(groups_, axes_, unknown_, lost_, isServed_);
+  }
+
   std::optional<uint32_t> groupOf(uint32_t axis) const override { return axes_[axis].group; }
   bool begin(uint8_t axes, const PmcAxisGroups::Command& command) override;
   void change(uint8_t axes, const PmcAxisGroups::Command& command) override { (void)order(axes, command); }
@@ -36,6 +41,10 @@ private:
     uint32_t motion = 0, stop = 0; // tickets
     bool paused = false;
     bool ordered = false; // a command is not finished yet
+    template <class Archive>
+    void state(Archive& archive) { // the group is of the configuration
+      archive(motion, stop, paused, ordered);
+    }
   };
   bool order(uint8_t axes, const PmcAxisGroups::Command& command);
   uint32_t ask(uint32_t axis, int64_t command, int64_t data1, int64_t data2);

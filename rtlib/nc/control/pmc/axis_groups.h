@@ -21,6 +21,10 @@ public:
     bool noStop = false; // EMSBK
     uint16_t data1 = 0;
     int32_t data2 = 0;
+    template <class Archive>
+    void state(Archive& archive) {
+      archive(code, noStop, data1, data2);
+    }
   };
   enum class Progress : uint8_t { UnderWay, Over, Failed };
   struct Motion {
@@ -59,6 +63,11 @@ public:
   // Runs one slot. Groups that are not `served` (bit n-1) and their signals are left alone.
   void step(const pmc::SignalsIo& io, Mover& mover, uint8_t served, bool emergencyStop);
 
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(groups_, selected_);
+  }
+
 private:
   enum class AuxPhase : uint8_t { None, Code, Strobe, EfinFalls };
   // A group: the executing command and the two buffers before it (l.7675-7686).
@@ -73,6 +82,10 @@ private:
     int64_t dwellMs = 0;
     AuxPhase aux = AuxPhase::None;
     bool busy() const { return executing || waiting || input; }
+    template <class Archive>
+    void state(Archive& archive) {
+      archive(executing, waiting, input, axes, ebsy, begun, blockStop, alarm, pausing, dwellMs, aux);
+    }
   };
   struct Step; // the work of one group in a slot
 

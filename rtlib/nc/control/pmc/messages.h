@@ -56,6 +56,15 @@ public:
   // text end and begin anew for the host. The places and their program outlive the use.
   void use(uint8_t* block, const Places& places) noexcept;
 
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(reported_);
+    for (uint32_t at = 0; at < reportedAs_.size(); ++at)
+      if ((reported_[at / 8] >> at % 8 & 1) != 0) archive(reportedAs_[at].number, reportedAs_[at].key);
+    if constexpr (Archive::kLoads)
+      for (Look* look : {&allReported_, &stated_, &states_}) look->forget();
+  }
+
   // By a text list only: the bits of A from byte kFirstState on say which messages are shown.
   void writeStates(const runtime::Instance& instance) noexcept;
 

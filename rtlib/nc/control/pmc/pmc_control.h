@@ -37,6 +37,8 @@ public:
   // Whether a message is shown that puts the CNC into the alarm state. Allocates nothing.
   bool showsAlarm(const runtime::Instance& instance) const noexcept { return messages_.showsAlarm(instance); }
   bool isConstant(const rung_program& program, const runtime::Ref& place) const override;
+  void save(core::Saver& saver) const noexcept override { saver(functions_, axes_, messages_, served_); }
+  void load(core::Loader& loader) override { loader(functions_, axes_, messages_, served_); }
   // The second level is cut into slots of 8 ms.
   bool runsInSlots() const override { return true; }
   PmcFunctions* functions(uint32_t channel) override { return channel == 0 ? &functions_ : nullptr; }

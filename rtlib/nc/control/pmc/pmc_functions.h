@@ -42,6 +42,11 @@ public:
   void abort(const pmc::SignalsIo& io);
   bool busy() const;
 
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(running_, handedOver_, highSpeed_);
+  }
+
   bool useHighSpeed() override {
     setHighSpeed(true);
     return true;
@@ -63,6 +68,10 @@ private:
     Phase phase = Phase::Idle;
     bool fast = false;   // started in high-speed mode
     bool absent = false; // the answer was 0 at some time since the strobe
+    template <class Archive>
+    void state(Archive& archive) {
+      archive(phase, fast, absent);
+    }
   };
 
   void giveStrobe(const pmc::SignalsIo& io, uint32_t line);

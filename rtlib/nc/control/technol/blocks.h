@@ -63,6 +63,10 @@ public:
   // Central annulment: the block under way is abandoned, and a block in annulment mode, without motion, follows (man.
   // l.6748-6761, 10826). Programs that hold a block wait for it (l.5180-5183, 6444-6447). It ends a stop.
   void annul(runtime::Instance& instance);
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(phase_, reached_, first_);
+  }
   // The work of one scan, between MODULE_INPUT and MODULE_MAIN; modules that do not wait follow each other within it.
   void supervise(runtime::Instance& instance);
 

@@ -32,6 +32,11 @@ public:
   // At power-on: nothing is shown.
   void clear();
 
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(transient_, persistent_);
+  }
+
   // A message that the program has sent. Allocates nothing.
   void accept(const rung_message& message);
   // Whether the message begins to be shown, or is only logged; if not, it ends.

@@ -51,6 +51,11 @@ public:
   // Sets the places of the running program, which outlive their use.
   void use(const Places& places) { places_ = &places; }
 
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(runs_, stopped_, asked_, moves_, stopKey_, homed_);
+  }
+
   // Called before a scan, when the host has written its signals.
   void beforeScan(runtime::Instance& instance);
   // Called after a slice, by a host that calls beforeScan.

@@ -22,6 +22,11 @@ public:
   // Sets the places of the running program, which outlive their use.
   void use(const Places& places) { places_ = &places; }
 
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(stopping_);
+  }
+
   // Called after the reset of the memory. Runs MODULE_INIT with DR = 0: the control was switched on.
   void powerOn(runtime::Instance& instance);
   // Runs MODULE_DONE with DR = 0. True: the program has to continue, because MODULE_DONE_FINISHED is pending.

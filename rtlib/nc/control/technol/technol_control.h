@@ -41,6 +41,13 @@ public:
 
   TechnolFunctions* functions(uint32_t channel) override { return channel == 0 ? &functions_ : nullptr; }
 
+  void save(core::Saver& saver) const noexcept override { saver(*this); }
+  void load(core::Loader& loader) override { loader(*this); }
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(blocks_, operation_, driven_, functions_, life_, messages_);
+  }
+
   bool savesOnRequest() const override { return true; }
   void setStored(bool stored) override { backup_.setStored(stored); }
   bool asksToSave(const runtime::Instance& instance) const override { return backup_.asked(instance); }

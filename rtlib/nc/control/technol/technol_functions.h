@@ -54,6 +54,11 @@ public:
     places_ = &places;
   }
 
+  template <class Archive>
+  void state(Archive& archive) { // groups are of the configuration
+    archive(key_, keyCode_);
+  }
+
   // At power-on: no key is pressed.
   void reset() { key_ = Key::None; }
   // The attribute GroupNo of the control's configuration: groups 1 to 14, but not for functions to which the control

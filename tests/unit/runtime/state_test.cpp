@@ -48,11 +48,11 @@ struct Program : TestProgram {
 
 class States : public testing::Test {
 protected:
-  States() : image_(adopted(program_)), plc_(image_, queued()), again_(image_, queued()) {
+  States() : image_(adopted(program_)), plc_(image_, &options_), again_(image_, &options_) {
     plc_.powerOn();
     again_.powerOn();
   }
-  static rung_instance_options queued() {
+  static rung_instance_options queued() { // requests
     auto options = rung::sized<rung_instance_options>();
     options.flags = RUNG_QUEUE_REQUESTS;
     return options;
@@ -69,6 +69,7 @@ protected:
 
   Program program_;
   rung::Image image_;
+  rung_instance_options options_ = queued();
   rung::Instance plc_, again_;
 };
 

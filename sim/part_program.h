@@ -18,6 +18,11 @@ namespace rung::sim {
 struct ProgramValue {
   double number = 0;
   uint32_t variable = 0; // number of a macro variable; 0: `number` is the value
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(number, variable);
+  }
 };
 
 // The text of a part program, read from its beginning to its end.
@@ -125,6 +130,11 @@ struct PathModes {
   T target(T length, T from, T zeroPoint) const {
     return incremental ? from + length : length + zeroPoint;
   }
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(inch, incremental, perTurn, feed);
+  }
+
   double feedPerMinute(double turnsPerMinute) const { return perTurn ? feed * std::abs(turnsPerMinute) : feed; }
 };
 

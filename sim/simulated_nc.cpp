@@ -20,6 +20,16 @@ void SimulatedNc::powerOn(runtime::Instance& instance, nc::PowerOn kind) {
   control().powerOn(instance, kind);
 }
 
+void SimulatedNc::save(core::Saver& saver) const noexcept {
+  Environment::save(saver);
+  saver(quantities_);
+}
+
+void SimulatedNc::load(runtime::Instance& instance, core::Loader& loader) {
+  Environment::load(instance, loader);
+  loader(quantities_);
+}
+
 // ---- messages ----------------------------------------------------------------------------------------------------
 
 namespace {

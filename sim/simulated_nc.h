@@ -84,6 +84,9 @@ public:
   virtual uint32_t retainedSize() { return 0; }
   virtual void copyRetained(std::span<uint8_t> image) noexcept { (void)image; }
   virtual void restoreRetained(std::span<const uint8_t> image) { (void)image; }
+  // The log is not a part of the state: it has been handed over.
+  void save(core::Saver& saver) const noexcept override;
+  void load(runtime::Instance& instance, core::Loader& loader) override;
   // Time has passed while a fault prevented the program from running.
   virtual void idle(runtime::Instance& instance) { (void)instance; }
   // The program runs on the machine's clock from now on.

@@ -20,6 +20,10 @@ public:
   virtual const nc::Control& control() const = 0;
 
   virtual void powerOn(runtime::Instance& instance, nc::PowerOn kind) { control().powerOn(instance, kind); }
+  // The state beside that of the instance, as nc::Control has it. `load` is called when the instance has loaded its
+  // own.
+  virtual void save(core::Saver& saver) const noexcept { control().save(saver); }
+  virtual void load(runtime::Instance& instance, core::Loader& loader) { (void)instance, control().load(loader); }
   // Called before and after the part that a call of the host runs: a slice, a slot, a scan or the fast task.
   virtual void beforePart(runtime::Instance& instance) { (void)instance; }
   virtual void afterPart(runtime::Instance& instance) { control().afterSlice(instance); }

@@ -2,6 +2,7 @@
 #include <span>
 
 #include "rtlib/api/error.h"
+#include "rtlib/api/replacing.h"
 #include "rtlib/api/running.h"
 #include "rtlib/core/archive.h"
 
@@ -24,14 +25,9 @@ struct OfLibrary {
   }
 };
 
-int32_t failSimulated() noexcept {
-  return fail(RUNG_WRONG_STATE, "a simulated control is around the program, whose state is not a part of this one");
-}
-
 int32_t save(const rung_instance& instance, core::Saver& saver) noexcept {
-  if (!instance.controlAlone) return failSimulated();
   if (!instance.running.save(saver)) return fail(RUNG_LATER, "a scan has not ended");
-  instance.control->save(saver);
+  instance.environment->save(saver);
   saver(OfLibrary{.scans = instance.scans,
                   .functionChannels = instance.functionChannels,
                   .ending = instance.ending,
@@ -52,16 +48,17 @@ int32_t failLoad(runtime::LoadResult result) noexcept {
 }
 
 int32_t load(rung_instance& instance, core::Loader& loader) {
-  if (!instance.controlAlone) return failSimulated();
   const runtime::LoadResult result = instance.running.load(loader);
-  if (result != runtime::LoadResult::Loaded) {
-    instance.on = instance.on && result != runtime::LoadResult::Damaged;
+  if (result == runtime::LoadResult::OtherProgram || result == runtime::LoadResult::OtherForces)
     return failLoad(result);
-  }
+  endShadow(instance); // it repeats recorded scans, and this was none
   OfLibrary own;
-  instance.control->load(loader);
-  loader(own);
-  if (!loader.good() || loader.left() != 0) {
+  const bool isPossible = result == runtime::LoadResult::Loaded;
+  if (isPossible) {
+    instance.environment->load(instance.running, loader);
+    loader(own);
+  }
+  if (!isPossible || !loader.good() || loader.left() != 0) {
     instance.on = false;
     return failLoad(runtime::LoadResult::Damaged);
   }

@@ -2,13 +2,15 @@
 //
 //   template <class Archive> void state(Archive& archive) { archive(count_, motion_, waiting_); }
 //
-// Fields are numbers, enumerations, classes with a `state`, and arrays, vectors, texts, pairs and optionals of these.
-// Bytes mean the same on every little-endian machine. Saving allocates nothing; loading may, for vectors and texts.
+// Fields are numbers, enumerations, classes with a `state`, and arrays, vectors, maps, texts, pairs and optionals of
+// these. A number that selects an element is named with its highest value: archive.atMost(next_, kLast), which also is
+// how a size_t is saved. Bytes mean the same on every little-endian machine. Saving allocates nothing; loading may.
 #pragma once
 #include <array>
 #include <bit>
 #include <cstdint>
 #include <cstring>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -36,6 +38,18 @@ public:
   void operator()(const Fields&... fields) noexcept {
     (save(fields), ...);
   }
+  template <Number T>
+  void atMost(const T& value, uint64_t most) noexcept {
+    (void)most;
+    save(static_cast<uint64_t>(value));
+  }
+  void require(bool holds) noexcept { (void)holds; }
+  // A list whose length follows from the configuration.
+  template <class List>
+  void each(const List& all) noexcept {
+    save(uint64_t{all.size()});
+    for (const auto& one : all) save(one);
+  }
   void bytes(std::span<const uint8_t> from) noexcept {
     if (!from.empty() && size_ <= to_.size() && from.size() <= to_.size() - size_)
       std::memcpy(to_.data() + size_, from.data(), from.size());
@@ -58,10 +72,19 @@ private:
   void save(const std::array<T, N>& all) noexcept {
     for (const T& each : all) save(each);
   }
+  template <class T, size_t N>
+  void save(const T (&all)[N]) noexcept {
+    for (const T& each : all) save(each);
+  }
   template <class T>
   void save(const std::vector<T>& all) noexcept {
     save(uint64_t{all.size()});
     for (const T& each : all) save(each);
+  }
+  template <class Key, class T, class... Rest>
+  void save(const std::map<Key, T, Rest...>& all) noexcept {
+    save(uint64_t{all.size()});
+    for (const auto& each : all) save(each);
   }
   void save(const std::string& text) noexcept {
     save(uint64_t{text.size()});
@@ -96,6 +119,22 @@ public:
   void operator()(Fields&... fields) {
     (load(fields), ...);
   }
+  template <Number T>
+  void atMost(T& value, uint64_t most) noexcept {
+    uint64_t loaded = 0;
+    load(loaded);
+    if (loaded > most) good_ = false;
+    if (good_) value = static_cast<T>(loaded);
+  }
+  // What must hold for the fields that have just been loaded.
+  void require(bool holds) noexcept { good_ = good_ && holds; }
+  template <class List>
+  void each(List& all) {
+    uint64_t count = 0;
+    load(count);
+    require(count == all.size());
+    for (auto& one : all) load(one);
+  }
   void bytes(std::span<uint8_t> to) noexcept {
     if (to.size() > from_.size()) good_ = false;
     if (!good_ || to.empty()) return;
@@ -124,10 +163,24 @@ private:
   void load(std::array<T, N>& all) {
     for (T& each : all) load(each);
   }
+  template <class T, size_t N>
+  void load(T (&all)[N]) {
+    for (T& each : all) load(each);
+  }
   template <class T>
   void load(std::vector<T>& all) {
     if (const std::optional<size_t> count = loadCount()) all.assign(*count, T{});
     for (size_t i = 0; good_ && i < all.size(); ++i) load(all[i]);
+  }
+  template <class Key, class T, class... Rest>
+  void load(std::map<Key, T, Rest...>& all) {
+    const size_t count = loadCount().value_or(0);
+    if (good_) all.clear();
+    for (size_t i = 0; good_ && i < count; ++i) {
+      std::pair<Key, T> each;
+      load(each);
+      all.insert(std::move(each));
+    }
   }
   void load(std::string& text) {
     if (const std::optional<size_t> count = loadCount()) text.resize(*count);

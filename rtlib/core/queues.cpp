@@ -55,7 +55,7 @@ uint32_t ServiceQueue::request(uint32_t service, const int64_t* args, uint32_t c
   ServiceRequest request;
   request.ticket = freeTicket();
   request.service = service;
-  if (service < nameCount_) request.name = &names_[service];
+  setName(request);
   request.argCount = bounded(count);
   for (uint32_t i = 0; i < request.argCount; ++i) request.args[i] = args[i];
 
@@ -146,9 +146,7 @@ void ServiceQueue::save(Saver& saver) const noexcept {
   const uint32_t asked = lengthOf(requests_);
   saver(asked);
   for (uint32_t i = 0; i < asked; ++i) {
-    ServiceRequest request = *requests_.peek(i);
-    saver(request.ticket, request.service, request.argCount);
-    archiveValues(saver, request.args, request.argCount);
+    saver(*requests_.peek(i));
   }
   const uint32_t answered = lengthOf(replies_);
   saver(answered);
@@ -192,11 +190,9 @@ void ServiceQueue::loadRequests(Loader& loader) noexcept {
   if (!isPossible(loader, count, kMaxPending)) return loader.fail();
   for (; count != 0 && loader.good(); --count) {
     ServiceRequest request;
-    loader(request.ticket, request.service, request.argCount);
-    if (!isPossible(loader, request.argCount, RUNG_MAX_SERVICE_ARGS)) return loader.fail();
-    archiveValues(loader, request.args, request.argCount);
-    if (request.service < nameCount_) request.name = &names_[request.service];
-    if (!requests_.push(request)) return loader.fail();
+    loader(request);
+    setName(request);
+    if (!loader.good() || !requests_.push(request)) return loader.fail();
   }
 }
 

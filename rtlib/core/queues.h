@@ -34,6 +34,13 @@ struct ServiceRequest {
     return ticket == other.ticket && service == other.service && argCount == other.argCount &&
            std::equal(args, args + RUNG_MAX_SERVICE_ARGS, other.args);
   }
+  // Of the name only the service (ServiceQueue::setName).
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(ticket, service);
+    archive.atMost(argCount, RUNG_MAX_SERVICE_ARGS);
+    for (uint32_t i = 0; i < argCount; ++i) archive(args[i]);
+  }
 };
 
 struct ServiceReply {
@@ -72,6 +79,11 @@ public:
   void setServices(const ServiceName* names, uint32_t count) noexcept {
     names_ = names;
     nameCount_ = count;
+  }
+
+  // Names a request that was loaded.
+  void setName(ServiceRequest& request) const noexcept {
+    request.name = request.service < nameCount_ ? &names_[request.service] : &kUnknownService;
   }
 
   // Program. `request` returns the ticket; 0 if kMaxPending requests are unanswered, or if requests from before a

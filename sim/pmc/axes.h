@@ -23,6 +23,11 @@ public:
   std::span<const uint32_t> active() const { return active_; }
   uint32_t last() const { return active_.empty() ? 0 : active_.back(); }
 
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(active_);
+  }
+
 private:
   std::vector<uint32_t> active_;
 };
@@ -44,6 +49,12 @@ struct Axis {
   bool blockedPositive = false; // over-travel, until reset (l.3613)
   bool blockedNegative = false;
   std::array<bool, 4> atReference = {}; // the axis has returned there and not left since
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(machine, commanded, relative, rest, moving, negative, referenced, blockedPositive, blockedNegative,
+            atReference);
+  }
 };
 
 class Axes {
@@ -74,6 +85,11 @@ public:
   static int64_t reference(const Tables& tables, uint32_t axis, uint32_t point);
   void arriveAtReference(uint32_t axis, uint32_t point);
   void clearOverTravel();
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(axes_, locked_, interlocked_, noPositive_, noNegative_);
+  }
 
 private:
   uint32_t switches(const Tables& tables) const;

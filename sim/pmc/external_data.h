@@ -12,6 +12,11 @@ public:
   uint32_t parts() const { return parts_; }
   uint32_t partsPreset() const { return preset_; }
 
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(phase_, address_, data_, parts_, preset_);
+  }
+
 private:
   enum class Phase : uint8_t { Idle, Read, Waiting, Done };
   bool carryOut(const nc::pmc::SignalsIo& io, Machine& machine, Operation& operation);

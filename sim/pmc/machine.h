@@ -27,6 +27,11 @@ struct Machine {
   bool isMacro(uint32_t number) const;
   int64_t macro(uint32_t number, const nc::pmc::SignalsIo& io) const;
   void setMacro(uint32_t number, int64_t value, const nc::pmc::SignalsIo& io);
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(tables, axes, spindle, alarms, plcAxes, messageAlarm, rapid);
+  }
 };
 
 // G12: 0-254 %, 255 counts as 0 (l.5693-5701).

@@ -23,6 +23,12 @@ struct AuxiliaryCodes {
   // Starts all functions in one slot, when no other function is in progress. Those beside the external one use the
   // common answer.
   void start(nc::PmcFunctions& functions, const nc::pmc::SignalsIo& io, bool highSpeed) const;
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(m, s, t, b, external);
+    archive.require(m.size() <= nc::pmc::kMostM);
+  }
 };
 
 // Modes and the automatic operation of the simulated CNC: cycle start, feed hold, single block, the blocks of a part
@@ -39,6 +45,12 @@ struct PathMove {
   uint8_t arrives = 0;
   double done = 0; // 0-1
   bool begun = false;
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(start, target, rapid, reference, arrives, done, begun);
+    archive.require(reference <= 4 && (reference != 0 || arrives == 0));
+  }
 };
 
 struct Modal {
@@ -48,6 +60,11 @@ struct Modal {
   uint32_t workOffset = 1; // G54
   uint32_t h = 0, d = 0;
   int lengthSign = 0; // 1: G43; 0: off
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(path, cutting, external, workOffset, h, d, lengthSign);
+  }
 };
 
 class Operation {
@@ -71,6 +88,15 @@ public:
   double speed() const { return speed_; }                            // mm/min along the path, in the last slot
   double absolute(const Machine& machine, uint32_t axis) const;      // mm, workpiece coordinates
   int64_t distanceToGo(const Machine& machine, uint32_t axis) const; // units, of the block in progress
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(program_, mdi_, stored_, mode_, runMode_, state_, startWasOn_, stopAfterBlock_, sequence_, inBlock_, modal_,
+            codes_, moves_, dwellMs_, externalPending_, functions_, speed_);
+    archive.atMost(next_, UINT32_MAX);
+    archive.atMost(moveCount_, moves_.size());
+    archive.atMost(move_, moves_.size());
+  }
 
 private:
   struct Run; // the parameters of one step
@@ -135,6 +161,11 @@ public:
   void turnWheel(uint32_t wheel, int64_t pulses) { pulses_[wheel - 1] += pulses; }
   void step(const nc::pmc::SignalsIo& io, Machine& machine, Mode mode);
   void stop(Machine& machine);
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(pulses_, target_, pending_, positiveWas_, negativeWas_, driven_, mode_);
+  }
 
 private:
   void jog(const nc::pmc::SignalsIo& io, Machine& machine, uint32_t axis, bool negative);

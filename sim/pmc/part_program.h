@@ -16,6 +16,11 @@ struct Word {
   char letter = 0; // '#': assignment to `variable`
   uint32_t variable = 0;
   ProgramValue value;
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(letter, variable, value);
+  }
 };
 
 struct Block {
@@ -24,11 +29,21 @@ struct Block {
   std::vector<Word> words;
 
   bool empty() const { return sequence == 0 && words.empty(); }
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(skipped, sequence, words);
+  }
 };
 
 struct PartProgram {
   uint32_t number = 0; // O
   std::vector<Block> blocks;
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(number, blocks);
+  }
 };
 
 // Returns "" and the program, or the error in the text. `axes`: the letters of the axes.

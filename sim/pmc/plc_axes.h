@@ -15,6 +15,11 @@ public:
 
   void step(const nc::pmc::SignalsIo& io, Machine& machine, bool emergencyStop);
 
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(groups_, target_);
+  }
+
 private:
   class Mover; // the state of one slot
 

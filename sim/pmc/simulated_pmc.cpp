@@ -45,6 +45,21 @@ public:
     findPlaces(instance);
   }
 
+  void save(core::Saver& saver) const noexcept override {
+    SimulatedNc::save(saver);
+    saver(*this);
+  }
+  void load(runtime::Instance& instance, core::Loader& loader) override {
+    SimulatedNc::load(instance, loader);
+    loader(*this);
+    for (Waiting& waiting : waiting_) instance.services().setName(waiting.request);
+  }
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(simulator_, waiting_, scriptedPositions_);
+    archive.require(waiting_.size() <= core::ServiceQueue::kMaxPending);
+  }
+
   // Called for every slice, which is a slot.
   void beforePart(runtime::Instance& instance) override {
     if (simulated_ && !instance.faulted()) {
@@ -89,6 +104,10 @@ private:
   struct Waiting {
     core::ServiceRequest request;
     uint32_t slots = 0;
+    template <class Archive>
+    void state(Archive& archive) {
+      archive(request, slots);
+    }
   };
 
   void findPlaces(runtime::Instance& instance) {

@@ -27,6 +27,11 @@ public:
   void powerOn(bool warm);
   void step(const nc::pmc::SignalsIo& io);
 
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(machine_, operation_, manual_, plcAxes_, positioning_, external_, resetKey_, resetSlots_, slots_);
+  }
+
   // Returns "", or the error.
   std::string loadProgram(std::string_view text, bool mdi);
   void pressReset() { resetKey_ = true; }

@@ -18,6 +18,11 @@ public:
   double actual() const { return one_.actual; } // signed, r/min
   double actual2() const { return two_.actual; }
 
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(commanded_, one_, two_);
+  }
+
 private:
   struct Motor {
     double actual = 0;
@@ -25,6 +30,10 @@ private:
     void step(double target);
     void orient(bool ordered);
     bool oriented() const;
+    template <class Archive>
+    void state(Archive& archive) {
+      archive(actual, orienting);
+    }
   };
   double firstTarget(const Cnc& cnc, const nc::pmc::SignalsIo& io, const Tables& tables) const;
   void writeGear(const Cnc& cnc, const nc::pmc::SignalsIo& io, const Tables& tables) const;
@@ -43,6 +52,11 @@ public:
   void reset() { phase_ = Phase::Rotating; }
   // The speed command is cut off.
   bool active() const { return positioning_; }
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(phase_, positioning_, orienting_);
+  }
 
 private:
   enum class Phase : uint8_t {

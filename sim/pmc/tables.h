@@ -41,12 +41,21 @@ public:
   // Clears the common variables #100-#199, which are lost at power-off.
   void clearVolatile();
 
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(cells_);
+  }
+
 private:
   struct Key {
     Table table;
     uint32_t number;
     uint32_t attribute;
     auto operator<=>(const Key&) const = default;
+    template <class Archive>
+    void state(Archive& archive) {
+      archive(table, number, attribute);
+    }
   };
   int64_t defaultOf(uint32_t parameter) const;
 

@@ -64,6 +64,20 @@ std::string EngineRun::replace(runtime::Engine& next, const compiler::GetCompile
   return error.what();
 }
 
+std::optional<EngineRun::Snapshot> EngineRun::snapshot() {
+  requests_.take(instance());
+  std::optional<std::vector<uint8_t>> state = machine_.instance().save();
+  if (!state) return std::nullopt;
+  return Snapshot{std::move(*state), requests_, unreadLog_};
+}
+
+void EngineRun::restore(const Snapshot& snapshot) {
+  machine_.instance().load(snapshot.state);
+  takeLog();
+  requests_.restore(instance(), snapshot.requests);
+  unreadLog_ = snapshot.unreadLog;
+}
+
 void EngineRun::advance(Advance how) {
   (machine_.*how)();
   takeLog();

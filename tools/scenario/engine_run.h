@@ -1,5 +1,6 @@
 // What happened to the state when a program replaced another, in words.
 #pragma once
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -64,6 +65,16 @@ public:
   // Replaces the running program by another one of the same dialect, whose engine must outlive the run. "" or why that
   // is impossible; then nothing has changed.
   std::string replace(runtime::Engine& next, const compiler::GetCompiled& compiled, ReplaceReport& report);
+  // The state of the program, of the NC and of the output that has not been checked.
+  struct Snapshot {
+    std::vector<uint8_t> state; // rung_instance_save
+    Requests requests;
+    std::vector<std::string> unreadLog;
+  };
+  // Nothing: a scan has not ended.
+  std::optional<Snapshot> snapshot();
+  // Throws rung::Error if that is impossible.
+  void restore(const Snapshot& snapshot);
   // Runs the NC and the program for a scan, a slot, the fast part or a slice.
   using Advance = void (sim::Machine::*)();
   void advance(Advance how);

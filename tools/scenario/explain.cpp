@@ -210,8 +210,7 @@ std::string Explainer::why(std::string_view name, bool wantReal) const {
   if (place && wantReal) place = runtime::asReal(session_.instance().memory(), *place).value_or(*place);
   if (uses_ == nullptr || !place || place->kind == runtime::RefKind::Constant) return {};
   const Changes::Scan begin = changes_->begin();
-  std::string since =
-      replaced_ ? fmt::format("the program took over after {}", scanText(begin.number, begin.us)) : "the start";
+  std::string since = since_.empty() ? "the start" : fmt::format("{}{}", since_, scanText(begin.number, begin.us));
   return Explanation(session_, *uses_, *changes_, std::move(since)).of(*place);
 }
 

@@ -22,7 +22,11 @@ public:
   }
   void replaced(const Session&, const NextProgram& next) override {
     follow(next.uses);
-    replaced_ = true;
+    since_ = "the program took over after ";
+  }
+  void restored(const Session&) override {
+    follow(uses_);
+    since_ = "the snapshot was restored after ";
   }
 
   bool knowsProgram() const { return uses_ != nullptr; }
@@ -40,7 +44,7 @@ private:
   const Session& session_;
   const ir::Uses* uses_ = nullptr;
   std::optional<Changes> changes_; // of the running program
-  bool replaced_ = false;
+  std::string_view since_;         // what begin() of the changes was; empty: the start
 };
 
 } // namespace rung::scenario

@@ -79,7 +79,11 @@ std::string Forces::clear(const EngineRuns& runs, const std::vector<std::string>
       values.erase(force);
     else
       return name + " is not forced";
-  if (!names.empty() && !values.empty()) return put(runs, std::move(values));
+  return restore(runs, names.empty() ? Values() : values);
+}
+
+std::string Forces::restore(const EngineRuns& runs, const Values& values) {
+  if (!values.empty()) return put(runs, values);
   for (const std::unique_ptr<EngineRun>& run : runs) force(*run, nullptr);
   values_.clear();
   inRuns_.clear();

@@ -19,6 +19,8 @@ public:
   std::string set(const EngineRuns& runs, const std::string& name, const Value& value);
   // Releases the cells of these names, by whatever names they were forced; without names, all.
   std::string clear(const EngineRuns& runs, const std::vector<std::string>& names);
+  // Has these forces and no others, as `values` returned them. The program must run.
+  std::string restore(const EngineRuns& runs, const Values& values);
   // The active forces.
   const Values& values(const EngineRuns& runs);
 

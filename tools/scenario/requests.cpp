@@ -161,6 +161,14 @@ void Requests::programChanged(Instance& instance, const sim::Relocation& relocat
   }
 }
 
+void Requests::restore(const Instance& instance, const Requests& saved) {
+  *this = saved;
+  const core::ServiceQueue& services = instance.services();
+  for (Claimed& claimed : claimed_) services.setName(claimed.request);
+  for (std::vector<Asked>* list : {&queued_, &waiting_, &taken_})
+    for (Asked& asked : *list) services.setName(asked.request);
+}
+
 void Requests::clear() {
   claimed_.clear();
   queued_.clear();

@@ -124,11 +124,15 @@ std::string Session::runFor(const Statement& s) {
   return {};
 }
 
-std::string Session::restart(nc::PowerOn kind) try {
+void Session::powerOn(nc::PowerOn kind) {
   for (const std::unique_ptr<EngineRun>& run : runs_) {
     if (kind == nc::PowerOn::Warm) run->machine().powerOff();
     run->powerOn(kind);
   }
+}
+
+std::string Session::restart(nc::PowerOn kind) try {
+  powerOn(kind);
   faultExpected_ = false;
   for (Observer* observer : observers_) observer->started(*this);
   return {};
@@ -274,6 +278,50 @@ std::string Session::plc(const Statement& s) {
 
 std::string Session::coldStart(const Statement&) { return restart(nc::PowerOn::Cold); }
 std::string Session::warmStart(const Statement&) { return restart(nc::PowerOn::Warm); }
+
+std::string Session::snapshot(const Statement& s) {
+  const rung_program& program = instance().program();
+  Snapshot made{.forces = forces_.values(runs_),
+                .report = report_,
+                .faultExpected = faultExpected_,
+                .code = program.code_hash,
+                .layout = program.layout_hash};
+  for (const std::unique_ptr<EngineRun>& run : runs_) {
+    std::optional<EngineRun::Snapshot> ofRun = run->snapshot();
+    if (!ofRun) return "a snapshot is taken between two scans, but this one has not ended: a scan statement ends it";
+    made.runs.push_back(std::move(*ofRun));
+  }
+  snapshots_.insert_or_assign(s.name, std::move(made));
+  return {};
+}
+
+std::string Session::goBack(const Snapshot& snapshot) {
+  // A program that has stopped takes no forces.
+  const bool stands = instance().faulted() || instance().stopped();
+  if (stands && !snapshot.forces.empty()) powerOn(nc::PowerOn::Cold);
+  if (std::string problem = forces_.restore(runs_, snapshot.forces); !problem.empty()) return problem;
+  for (size_t i = 0; i < runs_.size(); ++i) runs_[i]->restore(snapshot.runs[i]);
+  shadows_.end();
+  report_ = snapshot.report;
+  faultExpected_ = snapshot.faultExpected;
+  for (Observer* observer : observers_) observer->restored(*this);
+  return difference();
+}
+
+std::string Session::restore(const Statement& s) try {
+  const auto found = snapshots_.find(s.name);
+  if (found == snapshots_.end()) {
+    std::string names;
+    for (const auto& [name, snapshot] : snapshots_) names += (names.empty() ? "; there are: " : ", ") + name;
+    return fmt::format("no snapshot '{}' has been taken{}", s.name, names);
+  }
+  const rung_program& program = instance().program();
+  if (found->second.code != program.code_hash || found->second.layout != program.layout_hash)
+    return fmt::format("the snapshot '{}' was taken of another program than the one that runs now", s.name);
+  return goBack(found->second);
+} catch (const rung::Error& error) {
+  return error.what();
+}
 
 std::string Session::expectDifference(const Statement& s) { return shadows_.expectDifference(runs_, s.name); }
 std::string Session::expectNoDifference(const Statement&) { return shadows_.expectNone(runs_); }

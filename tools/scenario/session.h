@@ -9,6 +9,7 @@
 //   if (auto problem = session.execute(statement)) …     // the session continues all the same
 #pragma once
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -45,6 +46,8 @@ public:
   virtual void scanned(const Session& session) = 0;
   // Called after another program has taken over.
   virtual void replaced(const Session& session, const NextProgram& next) { (void)session, (void)next; }
+  // Called when the state of a snapshot has come back, and with it the clock of that moment.
+  virtual void restored(const Session& session) { (void)session; }
   // Called with the line of a print statement.
   virtual void printed(const std::string& line) { (void)line; }
 };
@@ -115,6 +118,15 @@ private:
   std::string advanceOnce(EngineRun::Advance how);
   std::string afterScan();
   std::string restart(nc::PowerOn kind);
+  void powerOn(nc::PowerOn kind);
+  struct Snapshot {
+    std::vector<EngineRun::Snapshot> runs;
+    Forces::Values forces;
+    std::optional<ReplaceReport> report;
+    bool faultExpected = false;
+    uint64_t code = 0, layout = 0; // of the program
+  };
+  std::string goBack(const Snapshot& snapshot);
   Result<NextProgram> makeProgram(const Statement& s);
   std::string difference() const;
   bool interrupted() const { return interrupted_ && interrupted_(); }
@@ -152,6 +164,8 @@ private:
   std::string plc(const Statement& s);
   std::string coldStart(const Statement& s);
   std::string warmStart(const Statement& s);
+  std::string snapshot(const Statement& s);
+  std::string restore(const Statement& s);
   std::string expectFault(const Statement& s);
   std::string print(const Statement& s);
   std::string replace(const Statement& s);
@@ -171,6 +185,7 @@ private:
   MakeProgram makeProgram_;
   std::optional<ReplaceReport> report_;
   Forces forces_;
+  std::map<std::string, Snapshot> snapshots_; // by name
   Shadows shadows_;
   const Statement* statement_ = nullptr;
   uint64_t scans_ = 0;

@@ -98,6 +98,8 @@ void Trace::replaced(const Session& session, const NextProgram&) {
   for (Source& source : sources_) source.value.locate(session.instance(), session.nc());
 }
 
+void Trace::restored(const Session& session) { restoredUs_ = sampledUs_ - session.nowUs(); }
+
 void Trace::sample(const runtime::Instance& instance, const sim::SimulatedNc& nc, uint64_t scan) {
   readings_.clear();
   readings_.reserve(sources_.size()); // must not be reallocated: `values_` refers to its texts
@@ -106,7 +108,8 @@ void Trace::sample(const runtime::Instance& instance, const sim::SimulatedNc& nc
     const std::optional<Reading>& value = readings_.emplace_back(source.value.read(instance, nc));
     values_.push_back(value && value->kind == source.kind ? tracedOf(*value) : runtime::TracedValue{});
   }
-  writer_->sample(instance.nowUs(), scan, values_);
+  sampledUs_ = instance.nowUs() + restoredUs_;
+  writer_->sample(sampledUs_, scan, values_);
 }
 
 std::string Trace::finish() {

@@ -56,6 +56,8 @@ public:
   void scanned(const Session& session) override { sample(session.instance(), session.nc(), session.scans()); }
   // Names that the new program does not have, or has with another kind of value, have no values from now on.
   void replaced(const Session& session, const NextProgram& next) override;
+  // Time goes on in the file.
+  void restored(const Session& session) override;
   void sample(const runtime::Instance& instance, const sim::SimulatedNc& nc, uint64_t scan);
   // Ends the file; "" or why it could not be written.
   std::string finish();
@@ -71,6 +73,8 @@ private:
     ValueKind kind = ValueKind::Int; // kind in the file
   };
   std::vector<Source> sources_;
+  int64_t sampledUs_ = 0;  // the last time in the file
+  int64_t restoredUs_ = 0; // by which the program's clock has gone back
   // Of the last sample, by name.
   std::vector<std::optional<Reading>> readings_;
   std::vector<runtime::TracedValue> values_;

@@ -587,12 +587,12 @@ RUNG_API int32_t rung_instance_unsaved(const rung_instance* instance, char* text
 
 /* The state between two scans as bytes: everything on which further scans depend except the host and the settings that
  * it has made. It includes the memory with the compiler's own cells, the clock, a fault, the operator's stop, the
- * tickets of requests with the requests and replies that wait, the control's handshakes and messages, and the number of
- * scans. The same program has the same states on every engine and machine. */
+ * tickets of requests with the requests and replies that wait, the control's handshakes and messages, a simulated
+ * control with its machine, and the number of scans. The same program has the same states on every engine and machine. */
 
 /* Writes the state to `bytes`; `used` receives its size. A null pointer with size 0 only asks for the size. RUNG_LATER:
  * within a scan. RUNG_BAD_ARGUMENT: the state is larger than `size`; the contents of `bytes` are unspecified.
- * RUNG_WRONG_STATE: off, or a simulated control is around the program. [rt] */
+ * RUNG_WRONG_STATE: off. [rt] */
 RUNG_API int32_t rung_instance_save(const rung_instance* instance, void* bytes, size_t size, size_t* used);
 
 /* Continues from a state of the same program, which must be switched on. Messages that wait for the host stay. No other

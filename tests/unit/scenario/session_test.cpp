@@ -15,20 +15,32 @@ rung
 |--[5100.00]--[/5100.01]--(5101.00)
 )";
 
+constexpr const char* kOther = R"(dialect nct
+module MAIN
+
+rung
+|--[5100.00]--(5101.00)
+)";
+
 class ScenarioSession : public testing::Test {
 protected:
   void SetUp() override {
+    compiled_ = compiled(kLamp);
+    engines_ = enginesOf(compiled_);
+    for (const auto& engine : engines_) session_.addEngine(*engine);
+    ASSERT_TRUE(session_.start().empty());
+  }
+  static compiler::Compiled compiled(const char* text) {
     SourceManager sources;
     Diagnostics diagnostics;
-    const std::vector<FileId> files = {sources.addBuffer("lamp.lad", kLamp)};
-    std::optional<compiler::Compiled> compiled = compiler::compile(sources, files, {}, diagnostics);
-    ASSERT_TRUE(compiled);
-    compiled_ = std::move(*compiled);
-    for (compiler::EngineKind kind : {compiler::EngineKind::Interp, compiler::EngineKind::Jit}) {
-      engines_.push_back(compiler::makeEngine(kind, compiled_, {}).value());
-      session_.addEngine(*engines_.back());
-    }
-    ASSERT_TRUE(session_.start().empty());
+    const std::vector<FileId> files = {sources.addBuffer("lamp.lad", text)};
+    return compiler::compile(sources, files, {}, diagnostics).value();
+  }
+  static std::vector<std::unique_ptr<runtime::Engine>> enginesOf(const compiler::Compiled& program) {
+    std::vector<std::unique_ptr<runtime::Engine>> engines;
+    for (compiler::EngineKind kind : {compiler::EngineKind::Interp, compiler::EngineKind::Jit})
+      engines.push_back(compiler::makeEngine(kind, program, {}).value());
+    return engines;
   }
   std::string execute(const std::string& line) {
     const Scenario parsed = parse("typed", "program x\n" + line);
@@ -99,6 +111,109 @@ TEST_F(ScenarioSession, ObserversSeeEveryScan) {
   execute("cold_start");
   execute("warm_start");
   EXPECT_EQ(counter.starts, 3) << "when it is added, and after each restart";
+}
+
+TEST_F(ScenarioSession, GoesBackToASnapshot) {
+  EXPECT_EQ(execute("set 5100.00 1"), "");
+  EXPECT_EQ(execute("scan 2"), "");
+  EXPECT_EQ(execute("snapshot ON"), "");
+  const int64_t then = session_.nowUs();
+  EXPECT_EQ(execute("set 5100.00 0"), "");
+  EXPECT_EQ(execute("scan 3"), "");
+  EXPECT_EQ(execute("expect 5101.00 0"), "");
+  EXPECT_EQ(execute("snapshot OFF"), "");
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_EQ(execute("restore ON"), "");
+    EXPECT_EQ(execute("expect 5101.00 1"), "");
+    EXPECT_EQ(session_.nowUs(), then);
+  }
+  EXPECT_EQ(session_.scans(), 5u) << "scans are counted on";
+  EXPECT_EQ(execute("restore OFF"), "");
+  EXPECT_EQ(execute("expect 5101.00 0"), "");
+  EXPECT_EQ(execute("snapshot ON"), "");
+  EXPECT_EQ(execute("scan"), "");
+  EXPECT_EQ(execute("restore ON"), "");
+  EXPECT_EQ(execute("expect 5101.00 0"), "") << "a snapshot replaces one of the same name";
+}
+
+TEST_F(ScenarioSession, NamesTheSnapshotsThatThereAre) {
+  EXPECT_EQ(execute("restore A"), "no snapshot 'A' has been taken (before the first scan)");
+  EXPECT_EQ(execute("snapshot B"), "");
+  EXPECT_EQ(execute("snapshot C"), "");
+  EXPECT_EQ(execute("restore A"), "no snapshot 'A' has been taken; there are: B, C (before the first scan)");
+}
+
+TEST_F(ScenarioSession, ASnapshotBelongsToItsProgram) {
+  const compiler::Compiled other = compiled(kOther);
+  const auto others = enginesOf(other);
+  session_.setMakeProgram([&](const Statement& s) -> Result<NextProgram> {
+    const auto& engines = s.words[0] == "other.lad" ? others : engines_;
+    return NextProgram{{engines[0].get(), engines[1].get()}, nullptr};
+  });
+  EXPECT_EQ(execute("set 5100.00 1"), "");
+  EXPECT_EQ(execute("scan"), "");
+  EXPECT_EQ(execute("snapshot ON"), "");
+  EXPECT_EQ(execute("replace other.lad"), "");
+  EXPECT_EQ(execute("force 5101.00 0"), "");
+  EXPECT_NE(execute("restore ON").find("the snapshot 'ON' was taken of another program than the one that runs now"),
+            std::string::npos);
+  EXPECT_EQ(session_.forces().size(), 1u) << "nothing has changed";
+  EXPECT_EQ(execute("replace lamp.lad"), "");
+  EXPECT_EQ(execute("set 5100.00 0"), "");
+  EXPECT_EQ(execute("scan"), "");
+  EXPECT_EQ(execute("restore ON"), "");
+  EXPECT_EQ(execute("expect 5101.00 1"), "");
+  session_.setMakeProgram({}); // its engines end before the session
+  EXPECT_EQ(execute("scan"), "");
+}
+
+TEST_F(ScenarioSession, ASnapshotHasItsForces) {
+  EXPECT_EQ(execute("force 5101.00 1"), "");
+  EXPECT_EQ(execute("scan"), "");
+  EXPECT_EQ(execute("snapshot FORCED"), "");
+  EXPECT_EQ(execute("unforce"), "");
+  EXPECT_EQ(execute("scan"), "");
+  EXPECT_EQ(execute("snapshot FREE"), "");
+  EXPECT_EQ(execute("expect 5101.00 0"), "");
+  EXPECT_EQ(execute("restore FORCED"), "");
+  EXPECT_EQ(session_.forces().size(), 1u);
+  EXPECT_EQ(execute("scan"), "");
+  EXPECT_EQ(execute("expect 5101.00 1"), "");
+  EXPECT_EQ(execute("restore FREE"), "");
+  EXPECT_TRUE(session_.forces().empty());
+  EXPECT_EQ(execute("scan"), "");
+  EXPECT_EQ(execute("expect 5101.00 0"), "");
+}
+
+TEST_F(ScenarioSession, AStoppedProgramGoesBackToItsForces) {
+  EXPECT_EQ(execute("force 5101.00 1"), "");
+  EXPECT_EQ(execute("set 5100.00 1"), "");
+  EXPECT_EQ(execute("scan"), "");
+  EXPECT_EQ(execute("snapshot FORCED"), "");
+  session_.instance().halt("by the test");
+  EXPECT_TRUE(session_.instance().faulted());
+  EXPECT_EQ(execute("restore FORCED"), "");
+  EXPECT_FALSE(session_.instance().faulted());
+  EXPECT_EQ(session_.forces().size(), 1u);
+  EXPECT_EQ(execute("scan"), "");
+  EXPECT_EQ(execute("expect 5100.00 1"), "");
+  EXPECT_EQ(execute("expect 5101.00 1"), "");
+}
+
+TEST_F(ScenarioSession, ObserversAreToldOfARestore) {
+  struct Restores final : Observer {
+    void scanned(const Session&) override {}
+    void restored(const Session& session) override { times.push_back(session.nowUs()); }
+    std::vector<int64_t> times;
+  } restores;
+  session_.addObserver(restores);
+  EXPECT_EQ(execute("scan 3"), "");
+  EXPECT_EQ(execute("snapshot A"), "");
+  const int64_t then = session_.nowUs();
+  EXPECT_EQ(execute("scan 3"), "");
+  EXPECT_EQ(execute("restore A"), "");
+  EXPECT_NE(execute("restore B"), "");
+  EXPECT_EQ(restores.times, std::vector<int64_t>{then});
 }
 
 TEST_F(ScenarioSession, AnInterruptEndsTheStatement) {

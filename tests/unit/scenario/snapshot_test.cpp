@@ -1,0 +1,177 @@
+// Going back: at a random scan of each scenario of the examples a snapshot is taken, the scenario runs to its end, goes
+// back and runs to its end once more. Every scan must then end as it did before, with the same memory, messages and
+// state of the control and of the machine, on two engines.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <iterator>
+#include <random>
+
+#include "rtlib/api/environment.h"
+#include "tools/scenario/runner.h"
+#include "tools/scenario/statements.h"
+
+namespace rung::scenario {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Step {
+  size_t statement = 0;
+  int64_t beginUs = 0, endUs = 0;
+  bool isWhole = false; // a scan has ended
+  size_t digest = 0;    // of everything that the step left
+};
+
+class Steps final : public Observer {
+public:
+  explicit Steps(const Scenario& scenario) : scenario_(scenario) {}
+
+  void started(Session& session) override {
+    us_ = session.nowUs();
+    session_ = &session;
+  }
+  void scanned(const Session& session) override {
+    const auto statement = static_cast<size_t>(session.statement() - scenario_.statements.data());
+    all.push_back({statement, us_, session.nowUs(), session.instance().atListStart(), digest()});
+    us_ = session.nowUs();
+  }
+  void restored(const Session& session) override {
+    backAt = all.size();
+    us_ = session.nowUs();
+  }
+
+  std::vector<Step> all;
+  size_t backAt = 0; // the number of steps before the restore
+
+private:
+  size_t digest() {
+    std::string text(session_->instance().block().begin(), session_->instance().block().end());
+    if (const auto state = session_->machine().instance().save()) text.append(state->begin(), state->end());
+    for (const nc::ShownMessage& shown : session_->nc().control().messages(session_->instance())) text += shown.text;
+    return std::hash<std::string>()(text);
+  }
+
+  const Scenario& scenario_;
+  Session* session_ = nullptr;
+  int64_t us_ = 0;
+};
+
+RunResult runOnTwo(const Scenario& scenario, EngineStore& store, Steps& steps) {
+  RunOptions options;
+  options.engines = {compiler::EngineKind::Interp, compiler::EngineKind::Jit};
+  options.store = &store;
+  options.started = [&](Session& session, const compiler::Compiled&) {
+    session.addObserver(steps);
+    return std::string();
+  };
+  return run(scenario, options);
+}
+
+// The part of a statement up to this step, and the rest; without a rest, nothing.
+std::pair<Statement, std::optional<Statement>> split(const Statement& s, const std::vector<Step>& steps, size_t at) {
+  Statement first = s, rest = s;
+  const auto begins = std::ranges::find(steps, steps[at].statement, &Step::statement);
+  if (StatementInfo::of(s).advances == Advance::Time) {
+    first.microseconds = steps[at].endUs - begins->beginUs;
+    rest.microseconds -= first.microseconds;
+    return {first, rest.microseconds > 0 ? std::optional(rest) : std::nullopt};
+  }
+  first.count = at - static_cast<size_t>(begins - steps.begin()) + 1;
+  rest.count -= first.count;
+  return {first, rest.count > 0 ? std::optional(rest) : std::nullopt};
+}
+
+// A snapshot after this step, and at the end everything after it once more.
+Scenario goingBack(const Scenario& scenario, const std::vector<Step>& steps, size_t at) {
+  const auto here = scenario.statements.begin() + static_cast<ptrdiff_t>(steps[at].statement);
+  const auto [first, half] = split(*here, steps, at);
+  std::vector<Statement> rest;
+  if (half) rest.push_back(*half);
+  std::copy_if(here + 1, scenario.statements.end(), std::back_inserter(rest),
+               [](const Statement& s) { return StatementInfo::of(s).stage == Stage::Run; });
+  Scenario made = scenario;
+  made.statements.assign(scenario.statements.begin(), here);
+  made.statements.push_back(first);
+  made.statements.push_back(parseStatement("snapshot HERE").value());
+  made.statements.insert(made.statements.end(), rest.begin(), rest.end());
+  made.statements.push_back(parseStatement("restore HERE").value());
+  made.statements.insert(made.statements.end(), rest.begin(), rest.end());
+  std::copy_if(here + 1, scenario.statements.end(), std::back_inserter(made.statements),
+               [](const Statement& s) { return StatementInfo::of(s).stage != Stage::Run; });
+  return made;
+}
+
+// A step after which a snapshot can be taken and restored to the end: another program takes over only before it.
+std::optional<size_t> randomStep(const Scenario& scenario, const std::vector<Step>& steps, std::mt19937& random) {
+  const auto replaces = [](const Statement& s) { return StatementInfo::of(s).program != OtherProgram::None; };
+  const auto last = std::find_if(scenario.statements.rbegin(), scenario.statements.rend(), replaces);
+  const auto first = static_cast<size_t>(scenario.statements.rend() - last);
+  std::vector<size_t> possible;
+  for (size_t i = 0; i + 1 < steps.size(); ++i)
+    if (steps[i].isWhole && steps[i].endUs > steps[i].beginUs && steps[i].statement >= first) possible.push_back(i);
+  if (possible.empty()) return std::nullopt;
+  return possible[random() % possible.size()];
+}
+
+std::string problemsOf(const RunResult& result) {
+  std::string text = result.environment;
+  for (const Problem& problem : result.problems) text += textOf(problem) + "\n";
+  return text;
+}
+
+// False: the scenario does not run, or not for two scans.
+bool repeats(const Scenario& scenario, EngineStore& store, std::mt19937& random) {
+  Steps once(scenario);
+  if (!runOnTwo(scenario, store, once).passed) return false; // the examples have their own tests
+  const std::optional<size_t> at = randomStep(scenario, once.all, random);
+  if (!at) return false;
+  const Scenario twice = goingBack(scenario, once.all, *at);
+  Steps steps(twice);
+  const RunResult result = runOnTwo(twice, store, steps);
+  EXPECT_TRUE(result.passed) << scenario.path << ", step " << *at << ": " << problemsOf(result);
+  const size_t again = steps.all.size() - steps.backAt;
+  EXPECT_EQ(again, once.all.size() - *at - 1) << scenario.path;
+  if (again > steps.backAt) return true;
+  for (size_t i = 0; i < again; ++i)
+    if (steps.all[steps.backAt - again + i].digest != steps.all[steps.backAt + i].digest) {
+      ADD_FAILURE() << scenario.path << ": snapshot after step " << *at << ", " << i << " of " << again
+                    << " steps are the same, then line "
+                    << twice.statements[steps.all[steps.backAt + i].statement].line;
+      break;
+    }
+  return true;
+}
+
+class GoingBack : public testing::TestWithParam<const char*> {};
+
+TEST_P(GoingBack, RepeatsWhatHappened) {
+  std::vector<std::string> files;
+  for (const auto& entry : fs::directory_iterator(GetParam()))
+    if (entry.path().extension() == ".scn") files.push_back(entry.path().string());
+  std::ranges::sort(files);
+  EngineStore store;
+  std::mt19937 random(7);
+  size_t repeated = 0;
+  for (const std::string& file : files) {
+    const Result<Scenario> scenario = readScenario(file);
+    ASSERT_TRUE(scenario.ok()) << file;
+    repeated += repeats(scenario.value(), store, random) ? 1 : 0;
+  }
+  EXPECT_GE(repeated, files.size() * 2 / 3);
+}
+
+INSTANTIATE_TEST_SUITE_P(Examples, GoingBack,
+                         testing::Values("examples/fanuc-vmc", "examples/gsk-mill", "examples/gsk-panel",
+                                         "examples/nct-lathe", "examples/nct-turning-centre",
+                                         "examples/technol-machining-centre", "examples/technol-magazine",
+                                         "examples/technol-mill"),
+                         [](const testing::TestParamInfo<const char*>& info) {
+                           std::string name = fs::path(info.param).filename();
+                           std::ranges::replace(name, '-', '_');
+                           return name;
+                         });
+
+} // namespace
+} // namespace rung::scenario

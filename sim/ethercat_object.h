@@ -22,6 +22,11 @@ struct EthercatObject {
   // Limits of an IDN; if they are signed, so is its value.
   uint64_t least = 0, most = UINT64_MAX;
   bool isSigned = false;
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(value);
+  }
 };
 
 struct EthercatProtocols {

@@ -59,6 +59,19 @@ public:
   }
   void clear() { entries_ = {}, end_ = 0; }
 
+  template <class Archive>
+  void state(Archive& archive) {
+    archive.atMost(next_, UINT64_MAX);
+    archive.atMost(end_, kRoom);
+    for (Entry& entry : entries_) {
+      archive(entry.ticket);
+      if (entry.ticket == 0) continue;
+      archive.atMost(entry.count, kMost);
+      archive.atMost(entry.first, kRoom - entry.count);
+      archive.bytes(std::span(*bytes_).subspan(entry.first, entry.count));
+    }
+  }
+
 private:
   static constexpr uint32_t kRoom = 1u << 18;
   struct Entry {

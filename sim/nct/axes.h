@@ -81,6 +81,11 @@ struct AxisCommand {
   bool toReference = false; // ends with AN_RPE=1
   double distance = 0;      // target, distance, seconds or revolutions
   double speed = 0;         // per minute or revolution; 0 with Jog: from N0316
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(kind, rapid, perRevolution, machine, toReference, distance, speed);
+  }
 };
 
 class Axes final : public Topic {
@@ -125,6 +130,11 @@ public:
   void timeSlice() override;
   void retain(Retained& retained) override;
 
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(axes_, programHold_, pulses_, turned_);
+  }
+
 private:
   struct Axis {
     double position = 0;
@@ -147,6 +157,11 @@ private:
     bool wantsNegative = false;
     bool wantsRapid = false;
     int32_t jogBefore = 0;
+    template <class Archive>
+    void state(Archive& archive) {
+      archive(position, zeroPoint, velocity, target, rest, lubrication, active, buffer, program, lockedAt, steps,
+              referenced, referenceEnd, locked, alarm, detached, wantsPositive, wantsNegative, wantsRapid, jogBefore);
+    }
   };
   enum class Pace : uint8_t { Feed, Rapid };
 

@@ -41,6 +41,17 @@ public:
   int32_t parts = 0;                              // number of parts machined
   int32_t partsWanted = 0;
 
+  // The selected program belongs to the memory of all channels.
+  const ChannelProgram* selected() const { return selected_; }
+  void setSelected(const ChannelProgram* selected) { selected_ = selected; }
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(parts, partsWanted, handover_, automaticRun_, otherRun_, entered_, hasEntered_, toggles_, askedBefore_,
+            optionsBefore_, machineOn_, start_, stop_, interrupted_, restart_, return_, fresh_, sequence_);
+    archive.atMost(mode_, kModes - 1);
+    archive.atMost(wanted_, kModes - 1);
+  }
+
 private:
   // A program in progress. Automatic mode keeps its own while it is interrupted.
   struct Run {
@@ -54,6 +65,10 @@ private:
     bool active = false; // a block is in progress
     bool stopAfter = false;
     bool endAfter = false;
+    template <class Archive>
+    void state(Archive& archive) {
+      archive(motion, next, functions, issued, open, waiting, active, stopAfter, endAfter);
+    }
   };
 
   bool automatic() const { return mode_ == Mode::Automatic; }

@@ -26,11 +26,21 @@ struct ProgramWord {
   char letter = 0;
   uint32_t spindle = 0; // for S3=1000; otherwise 0
   ProgramValue value;
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(letter, spindle, value);
+  }
 };
 
 struct ProgramAssignment {
   uint32_t variable = 0;
   ProgramValue value;
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(variable, value);
+  }
 };
 
 struct ProgramJump {
@@ -39,6 +49,11 @@ struct ProgramJump {
   uint32_t variable = 0;
   ProgramValue value;
   uint32_t target = 0; // N
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(test, variable, value, target);
+  }
 };
 
 struct ProgramBlock {
@@ -49,11 +64,21 @@ struct ProgramBlock {
   std::optional<ProgramJump> jump;
 
   bool empty() const { return sequence == 0 && words.empty() && assignments.empty() && !jump; }
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(condition, sequence, words, assignments, jump);
+  }
 };
 
 struct ChannelProgram {
   int32_t number = 0; // O
   std::vector<ProgramBlock> blocks;
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(number, blocks);
+  }
 };
 
 // Returns "" and the program, or the error in the text.
@@ -140,6 +165,11 @@ struct BlockFunctions {
   }
   bool has(int32_t code) const;
   bool any() const;
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(codes, speed, spindle, tool, auxiliary);
+  }
 };
 
 class ChannelFunctions {
@@ -157,6 +187,11 @@ public:
   void dropStrobes() { handshake_.dropStrobes(links_.signals); }
   // The functions in the mask whose acknowledge is 0.
   uint32_t unacknowledged(uint32_t mask) const;
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(handshake_);
+  }
 
 private:
   int32_t codeOf(const BlockFunctions& functions, uint32_t line, bool turning) const;

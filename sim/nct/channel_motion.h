@@ -41,6 +41,14 @@ public:
   int32_t axisOf(char letter) const;                // axis of the channel, from 0; negative: none
   bool takesSpeed(const ProgramBlock& block) const; // S is the surface speed of G96 or the limit of G92
 
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(motion_, modes_, surface_, exactStop_, overrideOff_, polygon_, gearBox_, highSpeed_, surfaceSpeed_,
+            speedLimit_, commanded_, blockStart_, interruption_, way_, started_, locked_, checking_, restUs_, dwellUs_);
+    archive.atMost(count_, kWaypoints);
+    archive.atMost(next_, kWaypoints);
+  }
+
 private:
   // Flags of a waypoint.
   static constexpr uint32_t kFeed = 1 << 0;
@@ -57,6 +65,10 @@ private:
     Position target{};
     uint32_t axes = 0; // mask
     uint32_t flags = 0;
+    template <class Archive>
+    void state(Archive& archive) {
+      archive(target, axes, flags);
+    }
   };
   static constexpr uint32_t kWaypoints = 6;
 

@@ -32,7 +32,31 @@ public:
   void timeSlice() override;
   void retain(Retained& retained) override;
 
+  template <class Archive>
+  void state(Archive& archive) {
+    archivePrograms(archive);
+    archive(selected_, cycleUs_, resetPressed_, pulsing_, resetBefore_);
+    for (const std::unique_ptr<Channel>& channel : channels_) {
+      std::optional<int32_t> running;
+      if (const ChannelProgram* program = channel->selected()) running = program->number;
+      archive(running, *channel);
+      if constexpr (Archive::kLoads) channel->setSelected(running ? find(*running) : nullptr);
+    }
+  }
+
 private:
+  template <class Archive>
+  void archivePrograms(Archive& archive) {
+    auto count = static_cast<uint32_t>(programs_.size());
+    archive(count);
+    if constexpr (Archive::kLoads) {
+      for (const std::unique_ptr<Channel>& channel : channels_) channel->setSelected(nullptr);
+      programs_.clear();
+      while (archive.good() && programs_.size() < count) archive(programs_.emplace_back());
+    } else {
+      for (ChannelProgram& program : programs_) archive(program);
+    }
+  }
   const ChannelProgram* find(int32_t number) const;
   std::string load(const std::vector<NcArgument>& keys);
   std::string checkGroups(const ChannelProgram& program, uint32_t channel) const;

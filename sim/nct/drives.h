@@ -32,11 +32,21 @@ public:
   void powerOn(nc::PowerOn kind) override;
   void timeSlice() override;
 
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(drives_);
+    if constexpr (Archive::kLoads) seen_.forget();
+  }
+
 private:
   struct Drive {
     std::array<double, kDriveData> given{};
     std::array<bool, kDriveData> isGiven{};
     uint32_t errors = 0; // DN_ERR
+    template <class Archive>
+    void state(Archive& archive) {
+      archive(given, isGiven, errors);
+    }
   };
   void readAddresses();
   bool addressed(uint32_t drive) const;
@@ -72,6 +82,11 @@ public:
   void powerOn(nc::PowerOn kind) override;
   void timeSlice() override;
 
+  template <class Archive>
+  void state(Archive& archive) {
+    archive.each(wires_);
+  }
+
 private:
   struct Place {
     uint32_t word = 0;
@@ -83,6 +98,10 @@ private:
     int64_t delayUs = 0;
     bool level = false; // of the source, since sinceUs
     int64_t sinceUs = 0;
+    template <class Archive>
+    void state(Archive& archive) {
+      archive(level, sinceUs);
+    }
   };
   static std::optional<Place> place(std::string_view name);
 

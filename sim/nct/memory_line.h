@@ -80,6 +80,12 @@ public:
   void drop(size_t count);                  // at most `used` bytes
   void clear() { used_ = 0; }
 
+  template <class Archive>
+  void state(Archive& archive) {
+    archive.atMost(used_, bytes_.size());
+    for (size_t i = 0; i < used_; ++i) archive(bytes_[(begin_ + i) % bytes_.size()]);
+  }
+
 private:
   std::array<uint8_t, size_t{16} * 1024> bytes_{}; // room for eleven of the longest messages
   size_t begin_ = 0;
@@ -108,7 +114,21 @@ public:
   // A datagram for a closed port, or for an inbox without room, is lost, as with UDP.
   Sent sendTo(std::span<const uint8_t> from, Endpoint to) override;
 
+  // Of this side; the other one has its own.
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(role_, port_);
+    archive.atMost(current_, ends_.size() - 1);
+    for (End& end : ends_) {
+      uint32_t peer = end.peer == nullptr ? kNoPeer : static_cast<uint32_t>(end.peer - other_->ends_.data());
+      archive.atMost(peer, kNoPeer);
+      archive(end.open, end.inbox);
+      if constexpr (Archive::kLoads) end.peer = peer == kNoPeer ? nullptr : &other_->ends_[peer];
+    }
+  }
+
 private:
+  static constexpr uint32_t kNoPeer = 2; // after the two ends
   enum class Role : uint8_t { None, Udp, Server, Client };
   struct DatagramHeader {
     uint16_t bytes = 0;

@@ -28,6 +28,12 @@ public:
   std::optional<double> receivedWord(uint32_t number) const;
   bool connected() const { return line_.isOpen(); }
 
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(udp_, message_);
+    archive.atMost(messageBytes_, message_.size());
+  }
+
 private:
   std::string open(std::string_view role, uint16_t port);
   std::string send(const std::vector<NcArgument>& keys, uint16_t control);
@@ -61,6 +67,16 @@ public:
   void powerOn(nc::PowerOn kind) override;
   void cycle() override;
   void dropRequests() override { close(); }
+
+  // Real sockets are no part of it: after loading they are closed.
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(control_, remote_, protocol_, connecting_, connectingSince_, target_, port_, unsent_, device_);
+    archive.atMost(unsentBytes_, unsent_.size());
+    archive.atMost(unsentAt_, unsent_.size());
+    if constexpr (Archive::kLoads)
+      if (!isolated()) close();
+  }
 
 private:
   enum class Protocol : uint8_t { None, Udp, Server, Client };

@@ -55,6 +55,11 @@ struct PalletRow {
   PalletRow() { words[kPalletStatus] = kPlaceEmpty; }
   int32_t word(PalletColumn column) const { return words[column]; }
   bool hasPallet() const { return words[kPalletId] != 0; }
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(words, customs, programs);
+  }
 };
 
 struct PalletPlace {
@@ -87,6 +92,10 @@ public:
 
   void clear();
   void retain(Retained& retained);
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(rows_);
+  }
 
 private:
   uint32_t index(PalletPlace place) const;
@@ -120,6 +129,11 @@ public:
   void retain(Retained& retained) override { table_.retain(retained); }
 
   const PalletTable& table() const { return table_; }
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(table_, editing_);
+  }
   PalletPlan plan() const;
 
 private:

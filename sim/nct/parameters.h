@@ -53,6 +53,13 @@ public:
   void powerOn(nc::PowerOn kind) override;
   void retain(Retained& retained) override;
 
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(checksum_);
+    archive.each(values_);
+    if constexpr (Archive::kLoads) ++revision_;
+  }
+
 private:
   struct Found {
     const nc::nct::ParameterRow* row = nullptr;
@@ -97,6 +104,11 @@ public:
   void powerOn(nc::PowerOn kind) override;
   void retain(Retained& retained) override;
 
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(volatile_, retained_);
+  }
+
 private:
   static constexpr uint32_t kFirst = 100;
   static constexpr uint32_t kFirstRetained = 500;
@@ -136,6 +148,11 @@ public:
   Handled setQuantity(std::string_view name, double value) override;
   void powerOn(nc::PowerOn kind) override;
   void retain(Retained& retained) override;
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(words_, checksum_);
+  }
 
 private:
   std::array<int32_t, kNvramWords> words_{};

@@ -22,6 +22,11 @@ public:
   std::optional<double> quantity(std::string_view name) const override;
   void powerOn(nc::PowerOn kind) override;
 
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(connected_, window_);
+  }
+
 private:
   bool configured_ = true; // whether the display is connected after power-on
   bool connected_ = true;
@@ -48,6 +53,12 @@ public:
   std::optional<double> quantity(std::string_view name) const override;
   void powerOn(nc::PowerOn kind) override;
 
+  template <class Archive>
+  void state(Archive& archive) {
+    archive.each(devices_);
+    archive.each(objects_);
+  }
+
 private:
   enum class Protocol : uint8_t { Coe = 3, Soe = 5, Voe = 15 }; // word 2
   static constexpr int32_t kMostBytes = 1024;
@@ -59,6 +70,10 @@ private:
     bool silent = false; // does not answer
     uint32_t error = 0;  // answers with this error, if not 0
     Buffer vendor;       // data last written by VoE
+    template <class Archive>
+    void state(Archive& archive) {
+      archive(silent, error, vendor);
+    }
   };
   static bool fits(int32_t protocol, int32_t amount);
   static bool speaks(const Device& device, Protocol protocol);

@@ -41,6 +41,21 @@ public:
     simulator_.programChanged(instance, control_.signals());
   }
 
+  void save(core::Saver& saver) const noexcept override {
+    SimulatedNc::save(saver);
+    saver(*this);
+  }
+  void load(runtime::Instance& instance, core::Loader& loader) override {
+    SimulatedNc::load(instance, loader);
+    loader(*this);
+    simulator_.nameRequests(instance.services());
+  }
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(ran_, ownAcknowledge_, requested_);
+    if (simulated_) archive(simulator_);
+  }
+
   uint32_t retainedSize() override {
     nct::Retained size = nct::Retained::measure();
     if (simulated_) simulator_.retain(size);

@@ -45,6 +45,19 @@ public:
   void setRealTime() { links_.realTime = true; }
 
   void retain(Retained& retained);
+
+  // Signals and the program's memory have been loaded.
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(links_, parameters_, nvram_, wiring_, spindles_, axes_, macros_, screen_, drives_, network_, mailbox_,
+            channels_, tools_, pallets_, sliceUs_);
+    archive.atMost(waitingCount_, waiting_.size());
+    for (uint32_t i = 0; i < waitingCount_; ++i) archive(waiting_[i].request, waiting_[i].sinceUs);
+  }
+  // After loading: requests in progress are those of this program.
+  void nameRequests(const core::ServiceQueue& services) {
+    for (uint32_t i = 0; i < waitingCount_; ++i) services.setName(waiting_[i].request);
+  }
   // Sets the tables to those of a control as delivered, with the configuration applied.
   void deliver();
 

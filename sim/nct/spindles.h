@@ -83,6 +83,12 @@ public:
   void timeSlice() override;
   void retain(Retained& retained) override;
 
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(spindles_);
+    if constexpr (Archive::kLoads) resting_ = false, seen_.forget();
+  }
+
 private:
   // The program's command to a spindle; the four exclude each other (l.9186-9196).
   enum class Order : uint8_t { None, Rotate, Orient, Synchronise, CloseLoop };
@@ -103,6 +109,11 @@ private:
     bool alarm = false;
     bool wantsPositive = false;
     bool wantsNegative = false;
+    template <class Archive>
+    void state(Archive& archive) {
+      archive(speed, command, set, position, toGo, disturbance, order, closed, positioning, oriented, synchronised,
+              referenced, detached, alarm, wantsPositive, wantsNegative);
+    }
   };
 
   void number(uint32_t count);

@@ -16,12 +16,22 @@ struct ToolAnswers {
   bool groupDone = false;      // SP_TLCHA
   bool skip = false;           // SP_TLSKP
   bool countDisabled = false;  // SP_TLCD
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(individualDone, groupDone, skip, countDisabled);
+  }
 };
 struct ToolRequests {
   bool individual = false; // SN_TLCHI
   bool group = false;      // SN_TLCH
   bool skipDone = false;   // SN_TLSKPA
   bool notice = false;     // SN_TLNL
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(individual, group, skipDone, notice);
+  }
 };
 
 class ToolLife {
@@ -41,6 +51,11 @@ public:
 
   uint32_t toolIn(uint32_t spindle) const { return tables_.cartridges.dataNumber({(spindle + 1) * 10, 1}); }
 
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(spindles_);
+  }
+
 private:
   struct Spindle {
     ToolAnswers answers;
@@ -50,6 +65,10 @@ private:
     bool noticeDue = false; // SN_TLNL in the next cycle
     uint32_t timedTool = 0;
     int64_t us = 0; // time of timedTool, less than a second
+    template <class Archive>
+    void state(Archive& archive) {
+      archive(answers, requests, managed, skipped, noticeDue, timedTool, us);
+    }
   };
   void add(uint32_t spindle, bool time);
   void tellGroup(Spindle& spindle, int32_t type);

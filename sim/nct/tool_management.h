@@ -56,6 +56,11 @@ public:
 
   const ToolTables& tables() const { return tables_; }
 
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(tables_, life_, editing_, searching_, modified_, saving_);
+  }
+
 private:
   struct Setting { // from the configuration, applied at every cold start
     std::string name;

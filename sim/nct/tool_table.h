@@ -79,6 +79,11 @@ public:
   // Computes the status of a tool in life management from its counter and life.
   void renewStatus();
 
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(words_, reals_);
+  }
+
 private:
   std::array<int32_t, kToolUser1 + 1> words_{};
   std::array<double, kToolColumns + 1> reals_{};
@@ -108,6 +113,10 @@ public:
   void clear(uint32_t dataNumber) { rows_[dataNumber] = {}; }
   uint32_t firstFree() const; // 0: none
   void retain(Retained& retained) { retained.values(std::span(rows_)); }
+  template <class Archive>
+  void state(Archive& archive) {
+    archive.each(rows_);
+  }
 
 private:
   std::vector<ToolRow> rows_ = std::vector<ToolRow>(1); // row 0 is not used
@@ -160,6 +169,17 @@ public:
   void take(uint32_t dataNumber); // removes it from its pot
   void retain(Retained& retained);
 
+  template <class Archive>
+  void state(Archive& archive) {
+    archive.each(pots_);
+    archive.each(serial_);
+    if constexpr (Archive::kLoads) {
+      for (const uint32_t dataNumber : pots_) archive.require(dataNumber < serial_.size());
+      for (const uint32_t serial : serial_) archive.require(serial <= pots_.size());
+      if (!archive.good()) clear();
+    }
+  }
+
 private:
   struct Cartridge {
     CartridgeShape shape;
@@ -208,6 +228,11 @@ struct ToolPattern {
   uint32_t up = 0; // towards lower rows; matrix-type cartridges only
   uint32_t down = 0;
   bool round = false; // geometry B: the corners stay empty
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(left, right, up, down, round);
+  }
 };
 
 class PatternTable {
@@ -221,6 +246,10 @@ public:
   }
   void clear() { rows_.fill({}); }
   void retain(Retained& retained) { retained.value(rows_); }
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(rows_);
+  }
 
 private:
   std::array<ToolPattern, kRows + 1> rows_{};
@@ -253,6 +282,11 @@ struct ToolTables {
 
   // Frees the row and its pot.
   void remove(uint32_t dataNumber);
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(tools, cartridges, patterns);
+  }
 };
 
 // Search for an empty pot for a tool (man. 6.26.3 and 6.26.5, l.4498-4718). Space is counted in cells of half a pot: a

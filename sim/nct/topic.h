@@ -51,6 +51,11 @@ struct Links {
   Drives* drives = nullptr;
   ToolManagement* tools = nullptr;
   PalletManagement* pallets = nullptr;
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(nowUs, sliceUs, requestAgeUs);
+  }
 };
 
 inline constexpr double kNear = 1e-9; // units or turns: smaller distances count as none
@@ -89,6 +94,7 @@ public:
   virtual void powerOn(nc::PowerOn kind) { (void)kind; }
   virtual void cycle() {}
   virtual void timeSlice() {}
+  // Topics with fields that change name them in a `state` (rtlib/core/archive.h), which the Simulator knows.
   // Names the non-volatile fields, always the same and in the same order once the configuration is complete.
   virtual void retain(Retained& retained) { (void)retained; }
 

@@ -760,6 +760,20 @@ bool moveTo(const runtime::Relocation& relocation, SharedVariable& variable) {
 
 } // namespace
 
+bool SharedVariables::settle(const rung_program& program) {
+  std::vector<SharedVariable> loaded;
+  loaded.reserve(kUsual);
+  loaded.swap(all_);
+  clear();
+  for (SharedVariable& variable : loaded) {
+    bool isNew = false;
+    if (define(program, std::move(variable), isNew) && isNew) continue;
+    clear();
+    return false;
+  }
+  return true;
+}
+
 void SharedVariables::relocate(const runtime::Relocation& relocation) {
   byKey_.clear();
   uint32_t kept = 0;

@@ -99,6 +99,26 @@ struct SharedVariable {
   bool isMapped() const { return nc::isMapped(kind); }
   bool isLogical() const { return kind == nc::ExchangeKind::DefIn || kind == nc::ExchangeKind::DefOut; }
   bool isText() const { return nc::isText(type); }
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(name, count, space, byte, bit);
+    archiveLimit(archive, least);
+    archiveLimit(archive, most);
+    archive.atMost(kind, static_cast<uint64_t>(nc::ExchangeKind::Bit));
+    archive.atMost(type, static_cast<uint64_t>(nc::ExchangeType::Binary));
+    archive.atMost(period, static_cast<uint64_t>(nc::ExchangePeriod::OnDemand));
+  }
+
+private:
+  template <class Archive>
+  static void archiveLimit(Archive& archive, std::optional<runtime::Ref>& limit) {
+    std::optional<std::pair<uint32_t, uint32_t>> place; // of a real
+    if (limit) place.emplace(limit->space, limit->byte);
+    archive(place);
+    if constexpr (Archive::kLoads)
+      limit = place ? std::optional(runtime::realRef(place->first, place->second)) : std::nullopt;
+  }
 };
 
 // The place of an element.
@@ -111,6 +131,13 @@ public:
   // Returns false if the name already has another meaning, or the place is not in the program's memory. `isNew`:
   // something has changed.
   bool define(const rung_program& program, SharedVariable variable, bool& isNew);
+
+  // After loading. False: the program cannot have such variables; then there are none.
+  bool settle(const rung_program& program);
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(all_);
+  }
 
   // Moves the variables to another program; those that it does not have are dropped.
   void relocate(const runtime::Relocation& relocation);

@@ -41,6 +41,12 @@ void Exchange::programChanged(runtime::Instance& instance) {
   afterInit(instance);
 }
 
+bool Exchange::settle(runtime::Instance& instance) {
+  const bool isPossible = shared_.settle(instance.program()) && cells_.settle();
+  connections_.build(instance, shared_, cells_);
+  return isPossible;
+}
+
 uint32_t Exchange::works() const {
   constexpr uint32_t kPorts = 1u << nc::kHookBeforeInput | 1u << nc::kHookAfterMain;
   return connections_.configured() ? kPorts | 1u << nc::kHookFast | 1u << nc::kHookFastest : kPorts;

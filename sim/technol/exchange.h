@@ -33,11 +33,20 @@ public:
   // Restores the own values of the ports, because a value about to be written may be equal to a forced one.
   void beforeWrite(runtime::Instance& instance, const runtime::Ref& place);
 
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(in_, out_, active_);
+  }
+
 private:
   struct Port {
     uint8_t own = 0;    // written by the machine or the program
     uint8_t forced = 0; // forced value, present since then
     bool active = false;
+    template <class Archive>
+    void state(Archive& archive) {
+      archive(own, forced, active);
+    }
   };
   struct Family { // numbered cells
     uint32_t space = RUNG_NONE, first = 0, stride = 0;
@@ -99,6 +108,13 @@ public:
   ModuleCells& cells() { return cells_; }
   const ModuleCells& cells() const { return cells_; }
   const std::vector<NcProblem>& problems() const { return connections_.problems(); }
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(shared_, cells_, ports_, defined_);
+  }
+  // After loading: makes the connections again. False: there cannot be such variables and cells.
+  bool settle(runtime::Instance& instance);
 
 private:
   void define(runtime::Instance& instance, const core::ServiceRequest& request, core::ServiceReply& reply);

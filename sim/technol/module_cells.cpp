@@ -9,6 +9,8 @@
 #include "rtlib/nc/control/technol/identifier.h"
 #include "rtlib/nc/technol/code_page.h"
 #include "rtlib/nc/technol/signals.h"
+#include "sim/technol/devices/axis.h"
+#include "sim/technol/devices/ethercat_servo.h"
 
 namespace rung::sim::technol {
 namespace {
@@ -171,6 +173,35 @@ void ModuleCells::reset() {
   for (ModuleCell& cell : cells_) cell.bits = cell.given = 0;
 }
 
+bool ModuleCells::isPossible(const PointCell& point) const {
+  const uint32_t number = point.point.number, part = point.point.part;
+  if (point.cell >= cells_.size()) return false;
+  switch (point.point.kind) {
+  case ModulePoint::Kind::None: return true;
+  case ModulePoint::Kind::Key: return number < kKeys;
+  case ModulePoint::Kind::ProcessData: return image_ != nullptr && number < image_->count();
+  case ModulePoint::Kind::Position:
+  case ModulePoint::Kind::Shift:
+  case ModulePoint::Kind::Increment: return number < kMaxAxes && part <= kPath6PerMinute;
+  case ModulePoint::Kind::Servo: return number < EthercatServos::kCount;
+  case ModulePoint::Kind::Shared: return number < kMaxAxes && part < std::size(kSharedElements);
+  }
+  return false;
+}
+
+bool ModuleCells::settle() {
+  byKey_.clear();
+  for (uint32_t i = 0; i < keys_.size(); ++i) byKey_.emplace(keys_[i], i);
+  const bool isGood = keys_.size() == cells_.size() && byKey_.size() == cells_.size() &&
+                      std::ranges::all_of(points_, [this](const PointCell& point) { return isPossible(point); });
+  if (isGood) return true;
+  keys_.clear();
+  cells_.clear();
+  points_.clear();
+  byKey_.clear();
+  return false;
+}
+
 void ModuleCells::addShared() {
   std::string problem;
   for (const SharedElement& shared : kSharedElements) {
@@ -188,6 +219,7 @@ void ModuleCells::addShared() {
 uint32_t ModuleCells::cellOf(const ModuleElement& element) {
   const auto [entry, isNew] = byKey_.emplace(element.key, static_cast<uint32_t>(cells_.size()));
   if (!isNew) return entry->second;
+  keys_.push_back(element.key);
   cells_.push_back(
       {.type = element.typeIsOpen ? nc::ExchangeType::Uns64 : element.type, .typeIsOpen = element.typeIsOpen});
   if (element.point.kind != ModulePoint::Kind::None) points_.push_back({element.point, entry->second});

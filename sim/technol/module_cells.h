@@ -29,6 +29,11 @@ struct ModulePoint {
   } kind = Kind::None;
   uint32_t number = 0;
   uint32_t part = 0;
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(kind, number, part);
+  }
 };
 // The inputs of a servo, then its outputs.
 enum ServoPart : uint32_t {
@@ -99,6 +104,12 @@ struct ModuleCell {
   bool typeIsOpen = false;
   uint64_t bits = 0;  // in the cell's type; a bit is 0 or 1
   uint64_t given = 0; // last value set by a device
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(typeIsOpen, bits, given);
+    archive.atMost(type, static_cast<uint64_t>(nc::ExchangeType::Binary));
+  }
 };
 
 class ModuleCells {
@@ -120,6 +131,10 @@ public:
   struct PointCell {
     ModulePoint point{};
     uint32_t cell = 0;
+    template <class Archive>
+    void state(Archive& archive) {
+      archive(point, cell);
+    }
   };
   std::span<const PointCell> points() const { return points_; }
 
@@ -127,9 +142,19 @@ public:
   std::optional<NcCell> read(std::string_view name) const;
   bool write(std::string_view name, const NcCell& value);
 
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(keys_, cells_, points_);
+  }
+  // After loading. False: there cannot be such cells; then there are none.
+  bool settle();
+
 private:
+  bool isPossible(const PointCell& point) const;
+
   const EthercatImage* image_ = nullptr;
   std::vector<ModuleCell> cells_;
+  std::vector<std::string> keys_; // of the cells
   std::vector<PointCell> points_;
   std::unordered_map<std::string, uint32_t> byKey_;
 };

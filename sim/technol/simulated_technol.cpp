@@ -71,6 +71,20 @@ public:
     devices_.programChanged(instance, former);
   }
 
+  void save(core::Saver& saver) const noexcept override {
+    SimulatedNc::save(saver);
+    saver(*this);
+  }
+  void load(runtime::Instance& instance, core::Loader& loader) override {
+    SimulatedNc::load(instance, loader);
+    loader(*this);
+    loader.require(exchange_.settle(instance));
+  }
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(exchange_, devices_);
+  }
+
   std::string config(std::string_view key, std::string_view value) override {
     if (const nc::ConfigKey* row = findConfigKey(nc::technolConfigKeys(), key))
       if (std::string wrong = wrongValue(*row, key, value); !wrong.empty()) return wrong;
@@ -153,7 +167,10 @@ public:
       return {};
     }
     const auto constant = [this](std::string_view id) { return configuration_.constant(id); };
-    if (const auto done = devices_.event(instance, name, keys)) return *done;
+    if (const auto done = devices_.event(instance, name, keys)) {
+      devices_.takeLog(log_);
+      return *done;
+    }
     const std::optional<std::string> answer = technol::callEvent(instance, name, keys, constant);
     return answer ? *answer : SimulatedNc::event(instance, name, keys);
   }

@@ -54,6 +54,12 @@ public:
   // Units of 10 V.
   double output(uint32_t port) const { return double{outputs_[port - 1]} / kFullOutput; }
 
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(outputs_, off_);
+    for (uint32_t* number : {&activePort_, &main_, &assistant_, &lastSwitched_}) archive.atMost(*number, kAnalogPorts);
+  }
+
 private:
   std::array<double, kAnalogPorts> outputs_ = {}; // whole numbers, -7FFFh to 7FFFh
   uint32_t activePort_ = 0;

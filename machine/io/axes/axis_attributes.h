@@ -91,6 +91,11 @@ struct AxisReport {
   std::array<int64_t, kMaxAxes> positionEx = {}; // B_POL_EX, POSITION_POSk_EX (k < 6): 1/65536 µm
   std::array<int32_t, 6> positionShort = {};     // B_POL: 1/8 µm
 
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(motion, negative, positionEx, positionShort);
+  }
+
   // Sets the position of axis `index` + 1, in mm (degrees).
   void place(uint32_t index, double position) {
     positionEx[index] = std::llround(position * 1000 * 65536);

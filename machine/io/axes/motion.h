@@ -42,15 +42,30 @@ public:
   // One millisecond.
   void tick() { advance(kTickNs); }
 
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(position_, speed_, order_, phases_, last_, ns_, time_, duration_);
+    archive.atMost(count_, kPhases);
+    archive.atMost(phase_, kPhases - 1);
+  }
+
 private:
   enum class Kind : uint8_t { None, Run, To, Past };
   struct Order {
     Kind kind = Kind::None;
     double place = 0, speed = 0, acceleration = 0;
     bool operator==(const Order&) const = default;
+    template <class Archive>
+    void state(Archive& archive) {
+      archive(kind, place, speed, acceleration);
+    }
   };
   struct Phase {
     double begin = 0, position = 0, speed = 0, acceleration = 0; // values at its begin
+    template <class Archive>
+    void state(Archive& archive) {
+      archive(begin, position, speed, acceleration);
+    }
   };
 
   bool isNew(const Order& order);
@@ -91,6 +106,11 @@ struct DrivenAxis {
   void leave(double acceleration) {
     mover = Mover::None;
     motion.stop(acceleration);
+  }
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(motion, mover, requested, negative, settled);
   }
 };
 
@@ -139,6 +159,11 @@ public:
   void drive(DrivenAxis& axis, uint32_t number, const AxisPermits& in);
   void look(DrivenAxis& axis, uint32_t number);
 
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(units_, errors_);
+  }
+
 private:
   struct Unit {
     uint32_t axis = 0;       // 0: free
@@ -152,6 +177,11 @@ private:
     double feed = 0; // per second
     double acceleration = 0, length = 0, target = 0;
     bool underWay() const { return programmed && !arrived; }
+    template <class Archive>
+    void state(Archive& archive) {
+      archive(programmed, arrived, braking, placed, started, initiated, mp, feed, acceleration, length, target);
+      archive.atMost(axis, kMaxAxes);
+    }
   };
   const Unit* find(uint32_t number) const;
   Unit* find(uint32_t number) { return const_cast<Unit*>(std::as_const(*this).find(number)); }

@@ -84,11 +84,20 @@ public:
   // Writes the answer of a drive, and whether an answer is awaited.
   void showDrive(const core::Memory& memory, const CanPlaces& places);
 
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(orders_, asksDrive_);
+  }
+
 private:
   struct Order {
     uint32_t handle = 0; // 0: unused
     int64_t buffer = 0;  // of nc::technol::bytesArgument
     uint64_t procedure = 0;
+    template <class Archive>
+    void state(Archive& archive) {
+      archive(handle, buffer, procedure);
+    }
   };
   void send(DeviceCall& call);
   void receive(DeviceCall& call);

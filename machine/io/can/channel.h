@@ -39,6 +39,12 @@ public:
     return true;
   }
 
+  template <class Archive>
+  void state(Archive& archive) {
+    archive.atMost(count_, N);
+    for (uint32_t i = 0; i < count_; ++i) archive(items_[(first_ + i) % N]);
+  }
+
 private:
   std::array<Item, N> items_{};
   uint32_t first_ = 0, count_ = 0;
@@ -65,6 +71,10 @@ struct CanPacket {
   uint8_t data[kCanDataBytes] = {};
 
   bool operator==(const CanPacket&) const = default;
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(id, remote, length, data);
+  }
   bool isObject(uint16_t object) const { return (id & kCanObject) == object; }
   uint8_t node() const { return static_cast<uint8_t>(id & kCanNode); }
   // Whether the packet was sent by the node itself, not to the node.
@@ -121,6 +131,11 @@ struct CanOrder {
   uint32_t channel = 0;                   // 1, 2
   uint32_t objectLow = 0, objectHigh = 0; // of (identifier & 780h): 0 to 7FFh
   uint32_t nodeLow = 0, nodeHigh = 0;     // of (identifier & 7Fh): 0 to 7Fh
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(channel, objectLow, objectHigh, nodeLow, nodeHigh);
+  }
 };
 
 // The handles of subscriptions that match a packet, lowest first.
@@ -145,10 +160,21 @@ public:
   uint32_t count() const { return count_; }
   CanMatches matching(uint32_t channel, const CanPacket& packet) const;
 
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(lastHandle_);
+    archive.atMost(count_, kMostCanOrders);
+    for (uint32_t i = 0; i < count_; ++i) archive(entries_[i]);
+  }
+
 private:
   struct Entry {
     uint32_t handle = 0;
     CanOrder order;
+    template <class Archive>
+    void state(Archive& archive) {
+      archive(handle, order);
+    }
   };
   std::array<Entry, kMostCanOrders> entries_; // sorted by handle
   uint32_t count_ = 0;
@@ -199,6 +225,11 @@ public:
   // Delivers a received packet. Returns the matching subscriptions; without one the packet waits for CAN_RECV; of more
   // than 32, the oldest is lost.
   CanMatches deliver(const CanPacket& packet);
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(state_, toSend_, received_);
+  }
 
 private:
   uint32_t number_;

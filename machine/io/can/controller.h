@@ -67,6 +67,11 @@ public:
   // Sets the channel's state to that of its port, which may change between two ticks.
   void updateState(uint32_t channel);
 
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(orders_, channels_, units_, drives_, received_, sent_);
+  }
+
 private:
   struct NoPort final : CanPort {
     BusState state() const override { return BusState::Inactive; }

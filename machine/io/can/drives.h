@@ -21,6 +21,10 @@ struct Object {
   uint16_t index = 0;
   uint8_t subindex = 0;
   bool operator==(const Object&) const = default;
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(index, subindex);
+  }
 };
 
 // Objects of every node (CiA 301).
@@ -88,6 +92,11 @@ struct DriveOrders {
 struct DriveStates {
   std::array<uint16_t, kMostDrives> status{};       // CAN_DRIVE_STAT; 0: no drive, or it does not answer
   std::array<uint16_t, kMostDrives> manufacturer{}; // CAN_DRIVE_MSTAT
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(status, manufacturer);
+  }
 };
 
 // A message of the control about a drive (man. l.9627-9653).
@@ -99,6 +108,10 @@ struct DriveMessage {
   uint16_t emergency = 0; // error code of CiA 301
 
   bool operator==(const DriveMessage&) const = default;
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(number, drive, fault, emergency);
+  }
 };
 
 // The sentence for the log.
@@ -125,12 +138,21 @@ public:
   uint8_t busy() const { return waitsFor_ != 0 ? 0xFF : 0; }
   const CanPacket& answer() const { return answer_; }
 
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(drives_, sinceSync_, started_, waitsFor_, isToSend_, question_, answer_, messages_);
+  }
+
 private:
   struct Drive {
     DriveType type = DriveType::Kollmorgen;
     uint16_t status = 0, manufacturer = 0;
     bool mustRelease = false; // after a fault: enabled again only when the program has withdrawn the command
     uint32_t silentMs = 0;
+    template <class Archive>
+    void state(Archive& archive) {
+      archive(status, manufacturer, mustRelease, silentMs);
+    }
   };
   static uint16_t controlWord(Drive& drive, uint16_t command);
   void watch(uint32_t number, CanPort& port);
@@ -185,6 +207,11 @@ public:
   void count(InoutsItem item) { set(item, get(item) + 1); }
   uint8_t& at(uint32_t offset) { return bytes_[offset]; }
   const uint8_t& at(uint32_t offset) const { return bytes_[offset]; }
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(bytes_);
+  }
 
 private:
   std::array<uint8_t, inouts::kBytes> bytes_{};

@@ -1,6 +1,7 @@
 // A message of the control about a unit on the CAN bus. The manual assigns no numbers to these (l.9615-9653 are for
 // drives).
 #pragma once
+#include <bit>
 #include <string>
 
 #include "machine/io/can/channel.h"
@@ -22,6 +23,10 @@ struct UnitMessage {
   uint32_t code = 0;
 
   bool operator==(const UnitMessage&) const = default;
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(kind, group, board, object, code);
+  }
 };
 using UnitMessages = BoundedQueue<UnitMessage, 64>; // of more than 64, the newest are lost
 
@@ -82,6 +87,14 @@ public:
   bool hasTimedOut() const { return timedOut_; }
   // Whether a serious error is present that CONTROL does not limit to this unit (man. l.3541, l.3674).
   bool zeroesAll() const { return (data_.get(inouts::kErrorStatus) & kZeroAll) != 0; }
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(data_, analogue_, keys_, shorts_, sent_, registered_, mode_, silentMs_, unheardMs_, timedOut_, isPrepared_,
+            isStarted_, waiting_, late_, underWay_, refused_, askedMs_, isSdoSilent_, saidSdoSilent_, abort_, aborted_,
+            saidAborted_, segment_);
+    archive.require((waiting_ | late_ | underWay_) >> 31 == 0 && std::popcount(underWay_) <= 1);
+  }
 
 private:
   void begin();

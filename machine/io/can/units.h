@@ -21,6 +21,10 @@ struct GroupCodes {
   uint8_t timeoutCode = 0, timeoutNumber = 0; // _TIMEOUT_CODE, 1; _TIMEOUT_NUM
 
   bool operator==(const GroupCodes&) const = default;
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(errorCode, errorNumber, timeoutCode, timeoutNumber);
+  }
 };
 
 // Values from the program.
@@ -37,6 +41,11 @@ struct UnitStates {
   std::array<std::array<uint8_t, 2>, kHandwheels> keys{}; // PTLTOC_Pn, PTLTOC_Pn_2
   std::array<GroupCodes, kUnitGroups> groups{};
   bool zeroed = false; // a unit has a serious error: all outputs are 0 (man. l.3674)
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(in, errors, keys, groups, zeroed);
+  }
 };
 
 class CanUnits {
@@ -66,6 +75,12 @@ public:
   // CAN_SYSIO_READ and CAN_SYSIO_WRITE. False: no such unit, or no such item.
   bool read(uint32_t group, uint32_t board, InoutsItem item, uint32_t& value) const;
   bool write(uint32_t group, uint32_t board, InoutsItem item, uint32_t value);
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(display_, messages_, sinceSync_, started_);
+    archive.each(units_);
+  }
 
 private:
   void synchronize(const UnitOrders& orders, CanPort& port);

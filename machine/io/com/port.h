@@ -96,9 +96,35 @@ public:
   uint32_t lostBytes() const noexcept { return fromLine_.lost(); }
   bool hasError() const noexcept { return error_.load(std::memory_order_relaxed); }
 
+  // For a simulated line, on the program's thread.
+  template <class Archive>
+  void state(Archive& archive) {
+    archiveBytes(archive, toLine_);
+    archiveBytes(archive, fromLine_);
+    bool isWrong = hasError();
+    uint32_t lost = fromLine_.lost() - lostSeen_; // since the last takeState
+    archive(sendOverflow_, isWrong, lost);
+    if constexpr (Archive::kLoads) setError(isWrong), lostSeen_ = fromLine_.lost() - lost;
+  }
+
 private:
+  using Bytes = core::FixedRing<uint8_t, kQueueBytes>;
+  template <class Archive>
+  static void archiveBytes(Archive& archive, Bytes& ring) {
+    uint8_t byte = 0;
+    if constexpr (Archive::kLoads)
+      while (ring.pop(byte)) continue;
+    uint32_t count = ring.size();
+    archive.atMost(count, kQueueBytes);
+    for (uint32_t i = 0; i < count; ++i) {
+      if constexpr (!Archive::kLoads) byte = *ring.peek(i);
+      archive(byte);
+      if constexpr (Archive::kLoads) ring.push(byte);
+    }
+  }
+
   Settings settings_;
-  core::FixedRing<uint8_t, kQueueBytes> toLine_, fromLine_;
+  Bytes toLine_, fromLine_;
   std::atomic<bool> filling_{false}; // a block is being added to toLine_
   std::atomic<bool> error_{false};
   bool sendOverflow_ = false;

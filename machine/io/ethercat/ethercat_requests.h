@@ -22,6 +22,12 @@ struct StateBits {
   bool startCyclicOperation = false;
   // The master is in OPERATIONAL (l.17930, l.17953).
   bool isOperational = false;
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(bootstrapRequest, initRequest, preOperationalRequest, safeOperationalRequest, operationalRequest,
+            startCyclicOperation, isOperational);
+  }
 };
 
 class StateRequests {
@@ -33,6 +39,13 @@ public:
   // Called once per tick. Several requests are served one at a time in the order INIT, BOOTSTRAP, PRE, SAFE, OP. A
   // request that the master refuses stays set and is tried again after the others.
   void tick(StateBits& bits) noexcept;
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(ticket_, byProgram_, startSeen_, start_);
+    archive.atMost(current_, kStart);
+    archive.atMost(next_, kStart);
+  }
 
 private:
   static constexpr uint32_t kStart = 5; // index after the five requests
@@ -63,11 +76,20 @@ public:
   // To be called after a tick: passes on finished answers. Returns true if there were any.
   bool finish(runtime::Instance& instance, AnswerBytes& bytes);
 
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(pending_);
+  }
+
 private:
   struct Pending {
     uint32_t ticket = 0; // ticket of the program; 0: unused
     ethercat::Master::Ticket asked = 0;
     bool writes = false; // a write request: its answer has no data
+    template <class Archive>
+    void state(Archive& archive) {
+      archive(ticket, asked, writes);
+    }
   };
   Pending pending_[core::ServiceQueue::kMaxPending];
   ethercat::Master& master_;

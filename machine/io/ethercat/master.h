@@ -61,6 +61,11 @@ inline constexpr uint8_t kOperationData = 0x40;
 struct Station {
   uint32_t master = 0;
   uint32_t slave = 0;
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(master, slave);
+  }
 };
 
 struct Answer {

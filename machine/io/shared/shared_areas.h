@@ -80,6 +80,17 @@ public:
   // For tests, which access values besides the program: does not lock the mutex. Empty: there is no such area.
   std::span<uint8_t> bytes(uint32_t area) noexcept;
 
+  // For areas in memory of the process.
+  template <class Archive>
+  void state(Archive& archive) {
+    for (uint32_t area = 0; area < kAreas; ++area) {
+      bool isHeld = held_[area];
+      archive(isHeld);
+      if constexpr (Archive::kLoads) held_[area] = isHeld;
+      archive.bytes(bytes(area));
+    }
+  }
+
 private:
   struct Unmap {
     bool mapped; // otherwise made by new

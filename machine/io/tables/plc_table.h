@@ -1,5 +1,6 @@
 // An element of a PLC table: its form in memory, and its text in a file or from an operator.
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -69,10 +70,30 @@ struct PlcTable {
   bool setText(uint8_t* element, std::span<const uint8_t> text) noexcept;
   // Releases the texts of a line to be removed, whose own bytes stay.
   void dropTexts(uint32_t number) noexcept;
+
+  // The contents, for a table with the same definition and file.
+  template <class Archive>
+  void state(Archive& archive) {
+    uint64_t loaded = origin;
+    archive(loaded);
+    archive.require(loaded == origin);
+    archive.atMost(count, capacity);
+    archive.atMost(textsEnd, texts.size());
+    archive(selected, elementChanged, selectionChanged, dirty, textsInUse);
+    archive.bytes(std::span(bytes).first(size_t{count} * lineBytes));
+    archive.bytes(std::span(texts).first(textsEnd));
+    if constexpr (Archive::kLoads) settle(archive);
+  }
   // Whether all texts of these lines are within the first `end` bytes of `texts`, and are `inUse` bytes together.
   bool textsFit(const uint8_t* lines, uint32_t lineCount, uint32_t end, uint32_t inUse) const noexcept;
 
 private:
+  template <class Archive>
+  void settle(Archive& archive) {
+    archive.require((selected == 0 || selected < count) && textsFit(bytes.data(), count, textsEnd, textsInUse));
+    if (!archive.good()) count = selected = textsEnd = textsInUse = 0;
+    std::fill(line(count), line(capacity), uint8_t{0});
+  }
   void compactTexts() noexcept;
 };
 

@@ -106,6 +106,17 @@ public:
   // Power-up: clears the marks of changes.
   void forgetChanges() noexcept;
 
+  // Contents, selected lines and marks, for the tables of the same files.
+  template <class Archive>
+  void state(Archive& archive) {
+    for (const std::unique_ptr<PlcTable>& table : tables_) {
+      bool isThere = table != nullptr;
+      archive(isThere);
+      archive.require(isThere == (table != nullptr));
+      if (table) archive(*table);
+    }
+  }
+
 private:
   TableError find(uint32_t table, uint32_t line, uint32_t column, ColumnType type,
                   const uint8_t*& element) const noexcept;

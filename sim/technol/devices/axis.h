@@ -49,6 +49,12 @@ public:
   void forgetPulse() { seeks_ = false; }
   double pulse() const { return pulse_; } // position of `motion` at the last pulse
 
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(shift, spindle, offset_, seeks_, seeksDownwards_, pulse_);
+    io::DrivenAxis::state(archive);
+  }
+
 private:
   double nextPulse(double from, bool downwards) const;
 
@@ -114,6 +120,13 @@ struct AxisRequests {
   bool autmanSelect = false, autmanCancel = false; // l.11022-11030
   bool shiftSelected = false, shiftActive = false; // REQ_ESHIFT, ACT_ESHIFT
   uint16_t knobStep = 0;                           // KNOB_STEP, µm
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(positioning, homing, homingReq, homingStartReq, homingSingle, homingPlc, homingGroup, homingAxes,
+            nonlinearEnable, softLimits, stopReq, stopEmergencyReq, autmanSelect, autmanCancel, shiftSelected,
+            shiftActive, knobStep);
+  }
 };
 
 // Cells that are only written, all of them for axes that exist.
@@ -133,6 +146,13 @@ struct AxisOutputs : io::AxisReport {
   std::array<double, kMaxAxes> speed = {};         // mm/min, signed: RTM.Axis.Inc_Ax, without the speed of SHIFT
   std::array<double, kMaxAxes> shiftSpeed = {};    // mm/min: the speed of SHIFT
   AxisMask movedByHand = 0;                        // axes whose speed is that of manual motion
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(inPosition, reference, manual, atStop, panelControl, wheelControl, selecting, rapid, manualPlus,
+            manualMinus, shiftControl, shift, knobSelected, position, shiftMm, speed, shiftSpeed, movedByHand);
+    io::AxisReport::state(archive);
+  }
 };
 
 enum class Stop : uint8_t { None, Normal, Emergency };

@@ -40,6 +40,13 @@ public:
   bool transmit(const io::CanPacket& packet) override;
   bool receive(io::CanPacket& packet) override { return answers_.pop(packet); }
 
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(off_, wire_, answers_);
+    archive.each(units_);
+    archive.each(drives_);
+  }
+
 private:
   void distribute(const io::CanPacket& packet);
 
@@ -121,6 +128,11 @@ public:
   // The value of a drive's object; nothing: there is no such object.
   std::optional<uint32_t> driveObject(uint32_t drive, uint32_t index, uint32_t subindex) const;
   uint32_t drives() const { return control_.drives().count(); }
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(buses_, control_);
+  }
 
 private:
   using Problem = std::optional<std::string>;

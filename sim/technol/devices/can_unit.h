@@ -18,6 +18,11 @@ struct CanObject {
   uint32_t bytes = 4; // 1, 2 or 4
   uint32_t value = 0;
   ObjectAccess access = ObjectAccess::ReadOnly;
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(value);
+  }
 };
 
 class CanObjects {
@@ -33,6 +38,11 @@ public:
 
   // The answer to a request; `written` is the object that the request has written, or null.
   io::CanPacket answer(uint32_t node, const io::CanPacket& request, const CanObject*& written);
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive.each(objects_);
+  }
 
 private:
   CanObject* find(io::sdo::Object place);
@@ -59,6 +69,11 @@ struct UnitWires {
   std::array<uint8_t, io::kUnitOutputs> shorts{};      // shorted outputs of OP0 to OP2
   uint8_t error = 0;                                   // error register 1001h without bits 0 and 1 (l.3655-3668)
   bool silent = false;
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(in, analogue, keys, encoders, shorts, error, silent);
+  }
 };
 
 class SimulatedUnit {
@@ -80,6 +95,13 @@ public:
   void receive(const io::CanPacket& packet, NodePackets& answers);
   // One millisecond.
   void tick(NodePackets& answers);
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(wires_, objects_, operational_, sendsAnalogue_, rpdo_, tpdo_, received_, shown_, outputs_, reported_,
+            reportedShorts_);
+    archive.each(display_);
+  }
 
 private:
   void setDefaults();
@@ -129,6 +151,11 @@ public:
   void fault(uint16_t code, bool holds, NodePackets& answers);
   void setManufacturerStatus(uint16_t status) { manufacturer_ = status; }
   void setSilent(bool silent) { silent_ = silent; }
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(objects_, operational_, silent_, state_, word_, received_, code_, holds_, manufacturer_);
+  }
 
 private:
   enum class State : uint8_t { SwitchOnDisabled, ReadyToSwitchOn, SwitchedOn, Enabled, Fault };

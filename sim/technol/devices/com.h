@@ -31,6 +31,13 @@ public:
   // Returns whether the oldest bytes are the expected ones, which then count as checked.
   bool takeSent(std::span<const uint8_t> expected);
 
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(progress_);
+    archive.atMost(sentCount_, sent_.size());
+    for (uint32_t i = 0; i < sentCount_; ++i) archive(sent_[(sentFirst_ + i) % kSentBytes]);
+  }
+
 private:
   void leave();
 
@@ -59,10 +66,19 @@ public:
   std::string receive(uint32_t number, std::span<const uint8_t> bytes);
   std::string setError(uint32_t number, bool isWrong);
 
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(units_);
+  }
+
 private:
   struct Unit {
     io::com::Port port;
     ComLine line{port};
+    template <class Archive>
+    void state(Archive& archive) {
+      archive(port, line);
+    }
   };
   std::string inactive(uint32_t number) const;
 

@@ -29,6 +29,11 @@ public:
   uint16_t status() const { return status_; }
   uint16_t error() const { return error_; }
 
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(status_, error_, control_);
+  }
+
 private:
   uint16_t status_ = kSwitchOnDisabled;
   uint16_t error_ = 0;

@@ -30,6 +30,12 @@ struct EthercatRequest {
   uint32_t code = 0;
   uint32_t size = 0; // size of the data to write, or of the data read
   std::array<uint8_t, io::ethercat::kMostMailboxBytes> data{};
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(kind, station, index, sub, elements, most, ticket, ageMs, isDone, isForgotten, code, size);
+    archive.bytes(std::span(data).first(std::min<size_t>(size, data.size())));
+  }
 };
 
 class EthercatRequests {
@@ -48,6 +54,17 @@ public:
   uint32_t count() const { return count_; }
   EthercatRequest& operator[](uint32_t number) { return slots_[order_[number]]; }
   void dropForgotten();
+
+  template <class Archive>
+  void state(Archive& archive) {
+    if constexpr (Archive::kLoads) clear();
+    archive(lastTicket_);
+    archive.atMost(count_, kMost);
+    for (uint32_t i = 0; i < count_; ++i) {
+      archive.atMost(order_[i], kMost - 1);
+      archive(slots_[order_[i]]);
+    }
+  }
 
 private:
   std::array<EthercatRequest, kMost> slots_;
@@ -110,6 +127,11 @@ public:
   bool setObject(uint32_t slave, uint32_t index, uint32_t sub, uint64_t value);
   bool setIdn(uint32_t slave, uint32_t idn, uint32_t drive, uint64_t value);
   std::optional<EthercatState> slaveState(uint32_t slave) const;
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(slaves_, states_, image_, requests_, stateRequests_, commandTicket_, startInMs_);
+  }
 
 private:
   std::string configureSlave(std::string_view place, std::string_view value);

@@ -72,6 +72,11 @@ public:
   // Called once per scan. A servo that is neither simulated nor connected does not change any cells.
   void scan(ServoCells& cells);
 
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(own_, ownPosition_, isPlaced_, base_, hasBase_, control_, pulse_);
+  }
+
 private:
   void simulate(ServoCells& cells);
   void serve(ServoCells& cells);
@@ -100,6 +105,18 @@ public:
   void powerOn();
   // One millisecond; the servos work in every 20th one, so that one step takes one scan.
   void tick(Cells& cells);
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(servos_, ticks_);
+  }
+  template <class Archive>
+  static void archiveCells(Archive& archive, Cells& cells) {
+    for (ServoCells& of : cells)
+      archive(of.init, of.on, of.enable, of.disable, of.done, of.erase, of.isSimulated, of.isConnected, of.status,
+              of.error, of.control, of.state, of.isFaulty, of.blocksMotion, of.place, of.velocityScale, of.position,
+              of.requestedPosition, of.requestedVelocity);
+  }
 
 private:
   static constexpr uint32_t kScanTicks = 20;

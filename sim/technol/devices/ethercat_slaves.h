@@ -73,6 +73,13 @@ public:
   uint32_t readIdn(uint32_t slave, uint32_t drive, uint32_t elements, uint32_t idn, MailboxData& to) const;
   uint32_t writeIdn(uint32_t slave, uint32_t drive, uint32_t elements, uint32_t idn, std::span<const uint8_t> data);
 
+  template <class Archive>
+  void state(Archive& archive) {
+    for (EthercatSlave& slave : slaves_)
+      archive(slave.state, slave.isSilent, slave.injectedError, slave.drive, slave.rest);
+    archive.each(objects_);
+  }
+
 private:
   uint32_t missing(uint32_t slave, uint32_t index) const;
   uint32_t objectOfDrive(uint32_t slave, uint32_t index, uint32_t bytes, bool mayWrite);
@@ -110,6 +117,12 @@ public:
   bool givesInputs(uint32_t slave) const;
   bool takesOutputs(uint32_t slave) const;
 
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(master_, target_, slave_, stepMs_, silentMs_, link_);
+    archive.require(!slave_ || *slave_ < slaves_.count());
+  }
+
 private:
   struct Step {
     bool isRefused = false;
@@ -142,6 +155,10 @@ public:
     uint32_t object = 0;  // number of the object among those of the slaves
     uint64_t value = 0;
     bool isWritten = false; // an output written since the power-on
+    template <class Archive>
+    void state(Archive& archive) {
+      archive(value, isWritten);
+    }
   };
 
   EthercatImage(EthercatSlaves& slaves, const EthercatStates& states) : slaves_(slaves), states_(states) {}
@@ -165,6 +182,11 @@ public:
   // One millisecond: outputs are copied to their objects before the drives work, inputs after it.
   void putOutputs();
   void takeInputs();
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive.each(entries_);
+  }
 
 private:
   EthercatSlaves& slaves_;

@@ -20,6 +20,12 @@ struct KeyboardState {
   uint8_t function = 0;            // TL_Function: the active one, 0 to 3
   uint8_t requested = 0;           // TL_FunctionReq
   std::array<uint8_t, 3> states{}; // TL_Fun1State to TL_Fun3State: 0, 0FFh
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(requested, states);
+    archive.atMost(function, 3);
+  }
 };
 
 // The actions of pressing or releasing a key. The text is valid as long as the configuration.
@@ -50,6 +56,14 @@ public:
   const KeyboardState& state(uint32_t keyboard) const { return boards_[keyboard].state; }
   // Whether the keyboard has keys.
   bool exists(uint32_t keyboard) const { return keyboard < kKeyboards && !boards_[keyboard].keys.empty(); }
+
+  template <class Archive>
+  void state(Archive& archive) {
+    for (Board& board : boards_) {
+      archive(board.state, board.pressed, board.held);
+      for (const uint16_t number : board.pressed) archive.require(number <= board.keys.size() || number == kNothing);
+    }
+  }
 
 private:
   struct Board {
@@ -86,11 +100,20 @@ public:
   std::string text(uint32_t row, uint32_t column) const;
   bool isInverted(uint32_t row, uint32_t column) const { return cells_[row][column].inverted; }
 
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(cells_, last_);
+  }
+
 private:
   struct Cell {            // at the upper left pixel of a character
     uint8_t character = 0; // 0: none
     uint8_t size = 0;
     bool inverted = false;
+    template <class Archive>
+    void state(Archive& archive) {
+      archive(character, size, inverted);
+    }
   };
   void put(uint32_t row, uint32_t column, const Cell& cell);
 

@@ -76,6 +76,14 @@ public:
   bool selecting() const { return selected_ != 0 && selectedByKey_; }
   void select(uint32_t axis, bool byKey);
 
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(plus_, minus_, rapidAxes_, moveSelected_, selectedRapid_, rapidKey_, hold_, selectedByKey_, pulses_,
+            manual_, choose_, moved_, stepTo_, stepBy_, moveOrStep_, moveOrStepHeld_, wheelsOff_, shiftSelect_,
+            shiftActivate_, toggleShift_, toggleActive_);
+    archive.atMost(selected_, kMaxAxes);
+  }
+
 private:
   void press(const RtmCommand& command);
   void release(const RtmCommand& command);
@@ -114,10 +122,20 @@ public:
   // Writes the cells of manual motion.
   void show(std::span<const Axis> axes, AxisOutputs& out) const;
 
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(panel, on_, active_, locked_, external_, externalSelecting_, ordered_, wheels_, wheelTargets_, atStop_,
+            stopPlaces_, shifts_, shifting_, shiftWasActive_, shiftActive_);
+  }
+
 private:
   struct Ordered {
     AxisMask plus = 0, minus = 0;
     bool rapid = false;
+    template <class Archive>
+    void state(Archive& archive) {
+      archive(plus, minus, rapid);
+    }
   };
   void activate(const AxisInputs& in, AxisRequests& requests);
   Ordered orders(const AxisInputs& in);

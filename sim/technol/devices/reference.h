@@ -23,6 +23,11 @@ public:
   void drive(Axis& axis, uint32_t index, const AxisInputs& in);
   bool look(Axis& axis);
 
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(phase_, fresh_, negative_, reversed_, low_, armed_, switchWas_, from_);
+  }
+
 private:
   enum class Phase : uint8_t {
     None,
@@ -65,6 +70,11 @@ public:
   void look(std::span<Axis> axes, AxisRequests& requests);
   // REFPI: whether an axis is moving to its reference, for any reason.
   bool underWay(std::span<const Axis> axes) const;
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(travels_, ordered_);
+  }
 
 private:
   static void setBits(AxisMask& mask, AxisMask bits) { mask = static_cast<AxisMask>(mask | bits); }

@@ -31,6 +31,12 @@ public:
   // The spindle follows its output with the ramp `Acceleration`.
   void drive(Axis& axis, uint32_t number) const;
 
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(regulators_);
+    io::AnalogOutputs::state(archive);
+  }
+
 private:
   std::array<uint8_t, kMaxAxes> regulators_ = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1}; // l.8443
 };
@@ -55,6 +61,11 @@ public:
   // One millisecond: `drive` before the axis moves, `look` after it.
   void drive(Axis& axis, uint32_t index, const AxisInputs& in, AxisRequests& requests, Stop stop);
   void look(Axis& axis, uint32_t index, AxisRequests& requests);
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(phase_, fresh_, switchWas_, armed_, feed1_, feed2_, angle_, acceleration_);
+  }
 
 private:
   enum class Phase : uint8_t { None, Seek, Overrun, Turn };

@@ -85,6 +85,12 @@ public:
   // To be called before MODULE_INPUT, `us` after the last call.
   void pass(const core::Memory& memory, const Axes& axes, int64_t us);
 
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(nowUs_);
+    archive.each(wires_);
+  }
+
 private:
   struct Bit {
     std::string name; // NAME, or NAME.n of a cell
@@ -96,6 +102,10 @@ private:
     int64_t delayUs = 0;
     bool level = false; // level of the source, since sinceUs
     int64_t sinceUs = 0;
+    template <class Archive>
+    void state(Archive& archive) {
+      archive(level, sinceUs);
+    }
   };
   std::string follow(std::string_view key, std::string_view input, std::string_view value);
 

@@ -82,6 +82,15 @@ public:
   void copyRetained(std::span<uint8_t> image) const noexcept { tables_.copyRetained(image); }
   void restoreRetained(std::span<const uint8_t> image);
 
+  // Without complaints: they are taken at the end of each part of a scan and of each event.
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(tables_, areas_, axes_, com_, can_, canCalls_, ethercat_, ethercatCalls_, servos_, keyboards_, bytes_,
+            axisInputs_.blockMotion, axisRequests_, axisOutputs_, inputs_, canInputs_.terminals, canOutputs_.units,
+            canOutputs_.drives, stateBits_, devicesUs_, restUs_);
+    EthercatServos::archiveCells(archive, servoCells_);
+  }
+
 private:
   // An event: its keys, which are checked before it acts, and its action, which returns "", or the error.
   struct Event {

@@ -1,14 +1,17 @@
 // Going back: at a random scan of each scenario of the examples a snapshot is taken, the scenario runs to its end, goes
 // back and runs to its end once more. Every scan must then end as it did before, with the same memory, messages and
-// state of the control and of the machine, on two engines.
+// state of the control and of the machine, on two engines. And the state goes to another machine.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <iterator>
+#include <optional>
 #include <random>
 
-#include "rtlib/api/environment.h"
+#include "compiler/engines.h"
+#include "sim/machine.h"
+#include "tools/scenario/compile_step.h"
 #include "tools/scenario/runner.h"
 #include "tools/scenario/statements.h"
 
@@ -142,6 +145,88 @@ bool repeats(const Scenario& scenario, EngineStore& store, std::mt19937& random)
       break;
     }
   return true;
+}
+
+// Another machine of the same configuration, which gets the state of a session.
+class Twin {
+public:
+  Twin(const Scenario& scenario, const compiler::Compiled& program)
+      : engine_(std::move(compiler::makeEngine(compiler::EngineKind::Interp, program, {})).value()),
+        machine_(engine_->program(), engine_->context(), sim::makeSimulatedNc(engine_->program().dialect)) {
+    machine_.nc().setFolder(fs::path(scenario.path).parent_path().string());
+    for (const Statement& s : scenario.statements) {
+      if (s.kind == Kind::Config && !readsKey(*program.dialect, s.name))
+        EXPECT_EQ(machine_.nc().config(s.name, s.value.text), "");
+      if (s.kind == Kind::Connect) EXPECT_EQ(machine_.nc().connect(s.words[0], s.words[1]), "");
+    }
+    machine_.powerOn(nc::PowerOn::Cold);
+  }
+
+  void continues(const std::vector<uint8_t>& state) {
+    machine_.instance().load(state);
+    EXPECT_TRUE(machine_.instance().save() == state);
+    machine_.scan();
+  }
+  // Whatever one byte says, the state is refused, or a program can run with it.
+  void survives(std::vector<uint8_t> state, std::mt19937& random) {
+    uint8_t& changed = state[random() % state.size()];
+    changed = static_cast<uint8_t>(changed ^ (1u << random() % 8));
+    if (random() % 4 == 0) state.resize(random() % state.size());
+    machine_.powerOn(nc::PowerOn::Cold);
+    if (rung_instance_load(machine_.instance().handle(), state.data(), state.size()) != RUNG_OK) ++refused;
+    for (int i = 0; i < 3; ++i) machine_.scan();
+    machine_.powerOn(nc::PowerOn::Warm);
+  }
+  uint32_t refused = 0;
+
+private:
+  std::unique_ptr<runtime::Engine> engine_;
+  sim::Machine machine_;
+};
+
+struct LastState final : Observer {
+  void started(Session& session) override { session_ = &session; }
+  void scanned(const Session& session) override {
+    if (session.scans() % 64 == 1 && session.instance().atListStart() && !session.instance().faulted())
+      state = session_->machine().instance().save().value();
+  }
+  std::vector<uint8_t> state;
+  Session* session_ = nullptr;
+};
+
+void handsOver(const char* path, std::mt19937& random) {
+  const Result<Scenario> scenario = readScenario(path);
+  ASSERT_TRUE(scenario.ok());
+  LastState last;
+  std::optional<Twin> twin;
+  RunOptions options;
+  options.engines = {compiler::EngineKind::Jit};
+  options.started = [&](Session& session, const compiler::Compiled& program) {
+    session.addObserver(last);
+    twin.emplace(scenario.value(), program);
+    return std::string();
+  };
+  EngineStore store; // keeps the program
+  options.store = &store;
+  const RunResult result = run(scenario.value(), options);
+  EXPECT_TRUE(result.passed) << problemsOf(result);
+  ASSERT_FALSE(last.state.empty());
+  twin->continues(last.state);
+  constexpr uint32_t kDamaged = 300;
+  for (uint32_t i = 0; i < kDamaged; ++i) twin->survives(last.state, random);
+  EXPECT_GT(twin->refused, kDamaged / 5) << "those that are cut off";
+}
+
+TEST(SimulatedState, GoesToAnotherMachine) {
+  std::mt19937 random(1);
+  for (const char* path :
+       {"examples/fanuc-vmc/nc-program.scn", "examples/gsk-mill/nc-program.scn",
+        "examples/nct-turning-centre/nc-program.scn", "examples/nct-turning-centre/nc-tools.scn",
+        "examples/technol-machining-centre/part-program.scn", "examples/technol-magazine/tool-change.scn",
+        "tests/scenarios/technol/can-units-panels.scn", "tests/scenarios/technol/device-manual-block.scn"}) {
+    SCOPED_TRACE(path);
+    handsOver(path, random);
+  }
 }
 
 class GoingBack : public testing::TestWithParam<const char*> {};

@@ -68,7 +68,7 @@ public:
   void cycle() override;
   void dropRequests() override { close(); }
 
-  // Real sockets are no part of it: after loading they are closed.
+  // Not of real sockets, which loading closes.
   template <class Archive>
   void state(Archive& archive) {
     archive(control_, remote_, protocol_, connecting_, connectingSince_, target_, port_, unsent_, device_);

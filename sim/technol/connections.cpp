@@ -431,13 +431,17 @@ void Connections::order() {
 }
 
 void Connections::build(runtime::Instance& instance, const SharedVariables& variables, ModuleCells& cells) {
+  rebuild(instance, variables, cells);
+  for (const Wire& wire : wires_) markAnalogue(instance, wire);
+}
+
+void Connections::rebuild(runtime::Instance& instance, const SharedVariables& variables, ModuleCells& cells) {
   wires_.clear();
   problems_.clear();
   Resolver resolver(instance, variables, cells);
   openCells(resolver, cells);
   addTerminals(resolver, variables);
   for (const Connection& connection : connections_) add(resolver, connection);
-  for (const Wire& wire : wires_) markAnalogue(instance, wire);
   order();
 }
 

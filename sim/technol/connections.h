@@ -184,8 +184,10 @@ public:
   void preset(runtime::Instance& instance) const;
   // A configured default value, in the type of the variable.
   std::optional<uint64_t> defaultOf(const SharedVariable& variable) const;
-  // Makes the table of wires.
+  // Makes the table of wires, and sets ANALOG_CONNECTED for those that are analogue.
   void build(runtime::Instance& instance, const SharedVariables& variables, ModuleCells& cells);
+  // The same without writing to the program's memory.
+  void rebuild(runtime::Instance& instance, const SharedVariables& variables, ModuleCells& cells);
   const std::vector<NcProblem>& problems() const { return problems_; }
 
   // ---- while it runs; nothing allocates

@@ -43,7 +43,7 @@ void Exchange::programChanged(runtime::Instance& instance) {
 
 bool Exchange::settle(runtime::Instance& instance) {
   const bool isPossible = shared_.settle(instance.program()) && cells_.settle();
-  connections_.build(instance, shared_, cells_);
+  connections_.rebuild(instance, shared_, cells_);
   return isPossible;
 }
 

@@ -104,7 +104,7 @@ public:
   // refused.
   void programChanged(runtime::Instance& instance, const sim::Relocation& relocation);
   void clear();
-  // Goes on with a copy that was made while the same program ran.
+  // Continues with a copy that was made while the same program ran.
   void restore(const runtime::Instance& instance, const Requests& saved);
 
   // The statements of these names; each function returns "" or what is wrong.

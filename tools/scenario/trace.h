@@ -56,7 +56,7 @@ public:
   void scanned(const Session& session) override { sample(session.instance(), session.nc(), session.scans()); }
   // Names that the new program does not have, or has with another kind of value, have no values from now on.
   void replaced(const Session& session, const NextProgram& next) override;
-  // Time goes on in the file.
+  // Times continue in the file.
   void restored(const Session& session) override;
   void sample(const runtime::Instance& instance, const sim::SimulatedNc& nc, uint64_t scan);
   // Ends the file; "" or why it could not be written.

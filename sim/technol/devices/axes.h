@@ -94,7 +94,7 @@ public:
   void setMeasured(uint32_t axis, double value) { axes_[axis - 1].setMeasured(value); }
   void setPhysical(uint32_t axis, double place) { axes_[axis - 1].setPhysical(place); }
 
-  // Complaints are no part of it: they are taken before a part of a scan ends.
+  // Without complaints: they are taken at the end of each part of a scan and of each event.
   template <class Archive>
   void state(Archive& archive) {
     archive(axes_, positioning_, spindles_, units_, reference_, manual_, operatorStop_, stopPiWas_, aborted_,

@@ -154,7 +154,7 @@ TEST_F(ScenarioSession, ASnapshotBelongsToItsProgram) {
   EXPECT_EQ(execute("scan"), "");
   EXPECT_EQ(execute("snapshot ON"), "");
   EXPECT_EQ(execute("replace other.lad"), "");
-  EXPECT_EQ(execute("force 5101.00 0"), "");
+  EXPECT_EQ(execute("force 5100.01 0"), "");
   EXPECT_NE(execute("restore ON").find("the snapshot 'ON' was taken of another program than the one that runs now"),
             std::string::npos);
   EXPECT_EQ(session_.forces().size(), 1u) << "nothing has changed";
@@ -168,10 +168,11 @@ TEST_F(ScenarioSession, ASnapshotBelongsToItsProgram) {
 }
 
 TEST_F(ScenarioSession, ASnapshotHasItsForces) {
-  EXPECT_EQ(execute("force 5101.00 1"), "");
+  EXPECT_EQ(execute("force 5100.00 1"), "");
   EXPECT_EQ(execute("scan"), "");
   EXPECT_EQ(execute("snapshot FORCED"), "");
   EXPECT_EQ(execute("unforce"), "");
+  EXPECT_EQ(execute("set 5100.00 0"), "");
   EXPECT_EQ(execute("scan"), "");
   EXPECT_EQ(execute("snapshot FREE"), "");
   EXPECT_EQ(execute("expect 5101.00 0"), "");
@@ -186,17 +187,15 @@ TEST_F(ScenarioSession, ASnapshotHasItsForces) {
 }
 
 TEST_F(ScenarioSession, AStoppedProgramGoesBackToItsForces) {
-  EXPECT_EQ(execute("force 5101.00 1"), "");
-  EXPECT_EQ(execute("set 5100.00 1"), "");
+  EXPECT_EQ(execute("force 5100.00 1"), "");
   EXPECT_EQ(execute("scan"), "");
   EXPECT_EQ(execute("snapshot FORCED"), "");
-  session_.instance().halt("by the test");
+  session_.instance().haltOverrun();
   EXPECT_TRUE(session_.instance().faulted());
   EXPECT_EQ(execute("restore FORCED"), "");
   EXPECT_FALSE(session_.instance().faulted());
   EXPECT_EQ(session_.forces().size(), 1u);
   EXPECT_EQ(execute("scan"), "");
-  EXPECT_EQ(execute("expect 5100.00 1"), "");
   EXPECT_EQ(execute("expect 5101.00 1"), "");
 }
 

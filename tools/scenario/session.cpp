@@ -288,6 +288,8 @@ std::string Session::snapshot(const Statement& s) {
                 .layout = program.layout_hash};
   for (const std::unique_ptr<EngineRun>& run : runs_) {
     std::optional<EngineRun::Snapshot> ofRun = run->snapshot();
+    if (!ofRun && instance().faulted())
+      return "the program stopped within a scan: a snapshot is taken between two scans";
     if (!ofRun) return "a snapshot is taken between two scans, but this one has not ended: a scan statement ends it";
     made.runs.push_back(std::move(*ofRun));
   }

@@ -1,6 +1,7 @@
-// Going back: at a random scan of each scenario of the examples a snapshot is taken, the scenario runs to its end, goes
-// back and runs to its end once more. Every scan must then end as it did before, with the same memory, messages and
-// state of the control and of the machine, on two engines. And the state goes to another machine.
+// Going back: at a random scan of each scenario of the examples, and of each test with a simulated control, a snapshot
+// is taken, the scenario runs to its end, goes back and runs to its end once more. Every scan must then end as it did
+// before, with the same memory, messages and state of the control and of the machine, on two engines. And the state
+// goes to another machine.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -66,9 +67,12 @@ private:
   int64_t us_ = 0;
 };
 
-RunResult runOnTwo(const Scenario& scenario, EngineStore& store, Steps& steps) {
+using Engines = std::vector<compiler::EngineKind>;
+const Engines kFast = {compiler::EngineKind::Jit}, kTwo = {compiler::EngineKind::Interp, compiler::EngineKind::Jit};
+
+RunResult runOn(const Engines& engines, const Scenario& scenario, EngineStore& store, Steps& steps) {
   RunOptions options;
-  options.engines = {compiler::EngineKind::Interp, compiler::EngineKind::Jit};
+  options.engines = engines;
   options.store = &store;
   options.started = [&](Session& session, const compiler::Compiled&) {
     session.addObserver(steps);
@@ -132,12 +136,12 @@ std::string problemsOf(const RunResult& result) {
 // False: the scenario does not run, or not for two scans.
 bool repeats(const Scenario& scenario, EngineStore& store, std::mt19937& random) {
   Steps once(scenario);
-  if (!runOnTwo(scenario, store, once).passed) return false; // the examples have their own tests
+  if (!runOn(kFast, scenario, store, once).passed) return false; // the examples have their own tests
   const std::optional<size_t> at = randomStep(scenario, once.all, random);
   if (!at) return false;
   const Scenario twice = goingBack(scenario, once.all, *at);
   Steps steps(twice);
-  const RunResult result = runOnTwo(twice, store, steps);
+  const RunResult result = runOn(kTwo, twice, store, steps);
   EXPECT_TRUE(result.passed) << scenario.path << ", step " << *at << ": " << problemsOf(result);
   const size_t again = steps.all.size() - steps.backAt;
   EXPECT_EQ(again, once.all.size() - *at - 1) << scenario.path;
@@ -234,32 +238,43 @@ TEST(SimulatedState, GoesToAnotherMachine) {
   }
 }
 
+// The scenarios in a folder; of the tests of single instructions only those with a simulated control.
+std::vector<Scenario> scenariosIn(const std::string& folder) {
+  const auto isSimulated = [](const Statement& s) { return s.kind == Kind::Config && s.value.text == "simulated"; };
+  std::vector<std::string> files;
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (entry.path().extension() == ".scn") files.push_back(entry.path().string());
+  std::ranges::sort(files);
+  std::vector<Scenario> found;
+  for (const std::string& file : files) {
+    Result<Scenario> scenario = readScenario(file);
+    EXPECT_TRUE(scenario.ok()) << file;
+    if (folder.starts_with("examples") || std::ranges::any_of(scenario.value().statements, isSimulated))
+      found.push_back(std::move(scenario).value());
+  }
+  return found;
+}
+
 class GoingBack : public testing::TestWithParam<const char*> {};
 
 TEST_P(GoingBack, RepeatsWhatHappened) {
-  std::vector<std::string> files;
-  for (const auto& entry : fs::directory_iterator(GetParam()))
-    if (entry.path().extension() == ".scn") files.push_back(entry.path().string());
-  std::ranges::sort(files);
+  const std::vector<Scenario> scenarios = scenariosIn(GetParam());
   EngineStore store;
   std::mt19937 random(7);
   size_t repeated = 0;
-  for (const std::string& file : files) {
-    const Result<Scenario> scenario = readScenario(file);
-    ASSERT_TRUE(scenario.ok()) << file;
-    repeated += repeats(scenario.value(), store, random) ? 1 : 0;
-  }
-  EXPECT_GE(repeated, files.size() * 2 / 3);
+  for (const Scenario& scenario : scenarios) repeated += repeats(scenario, store, random) ? 1 : 0;
+  EXPECT_GE(repeated, scenarios.size() * 2 / 3);
 }
 
-INSTANTIATE_TEST_SUITE_P(Examples, GoingBack,
-                         testing::Values("examples/fanuc-vmc", "examples/gsk-mill", "examples/gsk-panel",
-                                         "examples/nct-lathe", "examples/nct-turning-centre",
+INSTANTIATE_TEST_SUITE_P(Folders, GoingBack,
+                         testing::Values("tests/scenarios/fanuc", "tests/scenarios/gsk", "tests/scenarios/nct",
+                                         "tests/scenarios/technol", "examples/fanuc-vmc", "examples/gsk-mill",
+                                         "examples/gsk-panel", "examples/nct-lathe", "examples/nct-turning-centre",
                                          "examples/technol-machining-centre", "examples/technol-magazine",
                                          "examples/technol-mill"),
                          [](const testing::TestParamInfo<const char*>& info) {
-                           std::string name = fs::path(info.param).filename();
-                           std::ranges::replace(name, '-', '_');
+                           std::string name = info.param;
+                           std::ranges::replace_if(name, [](char c) { return c == '-' || c == '/'; }, '_');
                            return name;
                          });
 

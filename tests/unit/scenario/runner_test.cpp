@@ -103,6 +103,25 @@ TEST_F(ScenarioRunner, PrintsValuesAndTexts) {
   EXPECT_EQ(test::lacking(result.printed[1], {" ms, scan 2: two scans, 5101.00 = 1, 5200 = 300 (0x12C)"}), "");
 }
 
+TEST_F(ScenarioRunner, ValuesAreExplainedFromTheRestoreOn) {
+  EXPECT_EQ(test::lacking(problemOf("set 5100.00 1\nscan 2\nsnapshot ON\nscan\nrestore ON\nscan\nexpect 5101.00 0\n"),
+                          {"unchanged since the snapshot was restored after scan 3, 0.020 s"}),
+            "");
+}
+
+TEST_F(ScenarioRunner, ASnapshotIsTakenBetweenScans) {
+  const auto problemIn = [](const char* file, const char* text) {
+    RunOptions options;
+    options.engines = {EngineKind::Interp};
+    const RunResult result = run(parse(file, text), options);
+    return result.problems.empty() ? std::string("passed") : result.problems[0].message;
+  };
+  EXPECT_EQ(test::lacking(problemIn("tests/scenarios/gsk/typed.scn",
+                                    "program binding.pmc\nperiod 24ms\nscan\nsnapshot A\nslot\nsnapshot B\n"),
+                          {"a snapshot is taken between two scans, but this one has not ended", "(scan 2"}),
+            "");
+}
+
 TEST_F(ScenarioRunner, AllThatIsWrongIsReportedAtOnceByLine) {
   const RunResult result = runText("wait 2s\nset NOTHING 1\nscan x\nexpect NEITHER 1\nprint NOBODY 5200\n");
   std::vector<uint32_t> lines;

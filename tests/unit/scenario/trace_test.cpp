@@ -95,6 +95,22 @@ TEST_F(ScenarioTrace, VcdHasChangesOnly) {
             "b11111111111111111111111111111011 \"\n#30000\n");
 }
 
+TEST_F(ScenarioTrace, TimesContinueAfterARestore) {
+  Result<std::unique_ptr<Trace>> trace = open("t.csv", {"PUMP"});
+  ASSERT_TRUE(trace.ok());
+  session_.addObserver(*trace.value());
+  for (const char* line : {"scan", "snapshot OFF", "set START 1", "scan 2", "restore OFF", "scan"}) execute(line);
+  EXPECT_EQ(trace.value()->finish(), "");
+  std::ostringstream text;
+  text << std::ifstream(path("t.csv")).rdbuf();
+  EXPECT_EQ(text.str(), "time_s,scan,PUMP\n"
+                        "0.000000,0,0\n"
+                        "0.010000,1,0\n"
+                        "0.020000,2,1\n"
+                        "0.030000,3,1\n"
+                        "0.040000,4,0\n");
+}
+
 TEST_F(ScenarioTrace, NamesByDefaultAreWhatRungsUse) {
   EXPECT_THAT(defaultTraceNames(engine_->program(), compiled_.uses.get()),
               ElementsAre("FL_ER", "START", "5100.03", "PUMP", "COUNT"));

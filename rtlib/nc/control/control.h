@@ -204,8 +204,8 @@ public:
   }
 
   // The state of the control, beside that of its instance (Instance::save): handshakes under way, messages that are
-  // shown, what it has seen of signals. What the machine's configuration has told it is not a part. `load` takes what a
-  // control of the same dialect has saved, with the same program in the instance. `save` allocates nothing.
+  // shown, what it has seen of signals. What follows from the machine's configuration is not a part. `load` takes what
+  // a control of the same dialect has saved, with the same program in the instance. `save` allocates nothing.
   virtual void save(core::Saver& saver) const noexcept { (void)saver; }
   virtual void load(core::Loader& loader) { (void)loader; }
 

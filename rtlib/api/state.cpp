@@ -1,4 +1,5 @@
 // The state of an instance as bytes, and its clock.
+#include <bit>
 #include <span>
 
 #include "rtlib/api/error.h"
@@ -35,6 +36,13 @@ int32_t save(const rung_instance& instance, core::Saver& saver) noexcept {
   return RUNG_OK;
 }
 
+// Whether the control has all channels in which functions were started.
+bool hasChannels(const rung_instance& instance, uint32_t channels) noexcept {
+  for (uint32_t left = channels; left != 0; left &= left - 1)
+    if (instance.control->functions(static_cast<uint32_t>(std::countr_zero(left))) == nullptr) return false;
+  return true;
+}
+
 int32_t failLoad(runtime::LoadResult result) noexcept {
   switch (result) {
   case runtime::LoadResult::OtherProgram:
@@ -57,6 +65,7 @@ int32_t load(rung_instance& instance, core::Loader& loader) {
   if (isPossible) {
     instance.environment->load(instance.running, loader);
     loader(own);
+    loader.require(hasChannels(instance, own.functionChannels));
   }
   if (!isPossible || !loader.good() || loader.left() != 0) {
     instance.on = false;

@@ -39,6 +39,7 @@ public:
     else
       instance_.scan();
   }
+  size_t blockSize() { return inside_.block().size(); }
   // Everything that a host sees after a part.
   std::string seen() {
     std::string text(inside_.block().begin(), inside_.block().end());
@@ -77,19 +78,49 @@ void continues(const compiler::Compiled& program, uint32_t seed) {
   EXPECT_NE(std::ranges::adjacent_find(seen, std::ranges::not_equal_to()), seen.end());
 }
 
-class States : public testing::TestWithParam<const char*> {};
+// Whatever a few bytes say, the state is refused, or the program runs with it.
+void isRefusedOrRuns(const compiler::Compiled& program, uint32_t seed) {
+  constexpr uint32_t kDamages = 500, kBytes = 4;
+  Side plc(compiler::EngineKind::Jit, program);
+  std::mt19937 random(seed);
+  for (uint32_t i = 0; i < kSavedAfter; ++i) plc.part(random), (void)plc.seen();
+  const std::optional<std::vector<uint8_t>> state = (*plc).save();
+  ASSERT_TRUE(state);
+  // Most of a state is memory of the program: every other damage is behind that, where the control's own state is.
+  const size_t ofControl = std::min(state->size(), plc.blockSize());
+  uint32_t refused = 0;
+  for (uint32_t i = 0; i < kDamages; ++i) {
+    std::vector<uint8_t> damaged = *state;
+    for (uint32_t k = 0; k < 1 + random() % kBytes; ++k) {
+      const size_t from = i % 2 == 0 ? 0 : ofControl;
+      damaged[from + random() % (damaged.size() - from)] = static_cast<uint8_t>(random());
+    }
+    (*plc).powerOn();
+    if (rung_instance_load((*plc).handle(), damaged.data(), damaged.size()) == RUNG_OK)
+      for (uint32_t k = 0; k < 3; ++k) plc.part(random), (void)plc.seen();
+    else
+      ++refused;
+  }
+  EXPECT_GT(refused, 0u);
+  EXPECT_LT(refused, kDamages);
+}
 
-TEST_P(States, AreContinuedByAnyEngine) {
+void forSeeds(const char* path, void (*test)(const compiler::Compiled& program, uint32_t seed)) {
   RunOptions options;
   options.engines = {compiler::EngineKind::Interp};
   options.started = [&](Session&, const compiler::Compiled& program) {
-    for (uint32_t seed = 0; seed < 3; ++seed) continues(program, seed);
+    for (uint32_t seed = 0; seed < 3; ++seed) test(program, seed);
     return std::string();
   };
-  const Result<Scenario> scenario = readScenario(GetParam());
+  const Result<Scenario> scenario = readScenario(path);
   ASSERT_TRUE(scenario.ok());
   EXPECT_TRUE(run(scenario.value(), options).passed);
 }
+
+class States : public testing::TestWithParam<const char*> {};
+
+TEST_P(States, AreContinuedByAnyEngine) { forSeeds(GetParam(), continues); }
+TEST_P(States, AreRefusedOrRunWhenDamaged) { forSeeds(GetParam(), isRefusedOrRuns); }
 
 INSTANTIATE_TEST_SUITE_P(Machines, States,
                          testing::Values("examples/fanuc-vmc/alarms.scn", "examples/gsk-mill/alarms.scn",

@@ -692,7 +692,7 @@ class FullDisk(Host):
     build_options = ("--profile",)
     commands = {"hosts": [], "status": [], "messages": [], "get": ["X0.0"], "watch": ["X0.0"], "trace": ["X0.0", "-o", "{home}/full.vcd", "--for", "0.1"],
                 "set": ["D8:2", "1"], "event": ["reset"], "force": ["D8:2", "1"], "unforce": ["--all"], "forced": [], "reload": ["{program}"],
-                "rollback": [], "stop": [], "start": [], "reset": [], "map": [], "profile": [], "serve": [], "completion": ["bash"], "help": []}
+                "rollback": [], "stop": [], "start": [], "reset": [], "map": [], "profile": [], "serve": [], "log": [], "top": ["--once"], "verify": ["{program}"], "completion": ["bash"], "help": []}
 
     def start(self):
         self.host = subprocess.Popen([BIN / "rung-run", self.program, self.home / "plc.map", "--name", "plc", "--simulate"],
@@ -811,7 +811,7 @@ class History(Host):
 
     def test_a_host_that_is_killed(self):
         self.show("X0.4", 1)
-        path = self.home / "kept.messages"
+        path = self.home / "kept.log"
         self.wait(lambda: path.exists() and b"message 4" in path.read_bytes())
         self.host.kill()
         self.host.wait()
@@ -824,13 +824,13 @@ class History(Host):
                                                             r"\S+ \S+ - on now    message 4\n$")
 
     def test_a_place_that_cannot_be_written(self):
-        path = self.home / "kept.messages"
+        path = self.home / "kept.log"
         self.end()
         path.unlink(missing_ok=True)
         path.mkdir()
         self.begin_again()
         self.show("X0.4", 1)
-        self.wait(lambda: "the history of messages is not kept: cannot read" in self.ctl("messages"))
+        self.wait(lambda: "the log is not kept on disk: cannot read" in self.ctl("messages"))
         self.assertIn("message 4\n", self.ctl("messages"))
         self.assertIn("\nrunning: ", self.ctl("status"))
         self.end()

@@ -178,6 +178,10 @@ private:
   bool takeLogSize(const toml::node& node, File& map) {
     const std::optional<double> size = text::numberOf(node);
     if (!size || !(*size >= kLeastLog && *size <= kMostLog)) return false;
+    if (logAt_)
+      fail(positionOf(node), "log.size: found a second one, expected only that of " + lineOf(*logAt_) +
+                                 "; remove one of them");
+    logAt_ = positionOf(node);
     map.logBytes = static_cast<uint64_t>(*size * kMegabyte);
     return true;
   }
@@ -304,7 +308,7 @@ private:
 
   const ReadFile& read_;
   ConnectionReader connections_{*this};
-  std::optional<text::Position> timeoutAt_;
+  std::optional<text::Position> timeoutAt_, logAt_;
 };
 
 const Reader::Key<File> Reader::kFileKeys[] = {

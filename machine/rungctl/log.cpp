@@ -188,6 +188,7 @@ int log(Client& client, const Words& words, const volatile int& stop) try {
   if (answer.contains("file")) files = control::readLog(answer["file"].get<std::string>());
   answer["entries"] = wanted.of(merged(files, answer["entries"]));
   print(words, answer, textOf(answer["entries"]));
+  if (!std::cout) return cli::kOk; // the error of the output alone is shown
   if (!answer.contains("file"))
     fail("this host keeps its log only in memory; --retain FILE (rung_hal: retain=FILE) keeps it in FILE.log");
   else

@@ -2,6 +2,7 @@
 #include "machine/rungctl/screen.h"
 
 #include <ncurses.h>
+#include <poll.h>
 #include <unistd.h>
 
 #include <clocale>
@@ -65,7 +66,10 @@ void Screen::draw(const std::vector<Line>& lines) {
 }
 
 Screen::Pressed Screen::key(std::chrono::milliseconds wait) {
-  timeout(static_cast<int>(wait.count()));
+  pollfd input{STDIN_FILENO, POLLIN, 0};
+  poll(&input, 1, static_cast<int>(wait.count()));
+  if ((input.revents & ~POLLIN) != 0) return {.key = Key::Gone};
+  timeout(0);
   const int key = getch();
   switch (key) {
   case ERR: return {};

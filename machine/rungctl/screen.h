@@ -10,7 +10,17 @@ namespace rung::rungctl {
 
 class Screen {
 public:
-  enum class Key : uint8_t { None, Up, Down, PageUp, PageDown, Next, Resized, Letter };
+  enum class Key : uint8_t {
+    None,
+    Up,
+    Down,
+    PageUp,
+    PageDown,
+    Next,
+    Resized,
+    Letter,
+    Gone
+  }; // Gone: the terminal is closed
   struct Pressed {
     Key key = Key::None;
     char letter = 0;

@@ -69,6 +69,7 @@ private:
     case Key::PageDown: scrollDown(page); break;
     case Key::Next: show(static_cast<Section>((static_cast<size_t>(view_.section) + 1) % kSections)); break;
     case Key::Letter: pressLetter(pressed.letter); break;
+    case Key::Gone: ends_ = true; break;
     case Key::None:
     case Key::Resized: break;
     }

@@ -200,8 +200,8 @@ class LogSize(Retaining):
     def test_two_files_of_that_size(self):
         made, lines = self.connect()
         lines.readline()
-        for i in range(1200):
-            made.sendall(json.dumps({"do": "set", "name": "D8:2", "value": i % 1000}).encode() + b"\n")
+        for i in range(500):
+            made.sendall(json.dumps({"do": "set", "name": "D8:2", "value": i}).encode() + b"\n")
             lines.readline()
         path = self.home / "kept.log"
         self.wait(lambda: (self.home / "kept.log.1").exists())
@@ -548,6 +548,12 @@ class Top(Retaining):
         screen.process.send_signal(signal.SIGINT)
         self.assertEqual(screen.end(patience()), OK)
         self.begin_again()
+
+    def test_a_terminal_that_is_closed_ends_it(self):
+        screen = self.open()
+        self.until(screen, "running: ")
+        screen.hang_up()
+        self.assertEqual(screen.process.wait(patience()), OK)
 
     def test_a_fault_and_forces_are_seen(self):
         screen = self.open()

@@ -18,6 +18,8 @@ class Screen:
         self.columns, self.rows = columns, rows
         self.cells = [[" "] * columns for _ in range(rows)]
         self.row = self.column = 0
+        self.top, self.bottom = 0, rows - 1  # the lines that scroll
+        self.saved = (0, 0)
         self.last = " "
         self.raw = b""
         self.seen = b""  # everything that was written
@@ -33,6 +35,7 @@ class Screen:
     def resize(self, columns, rows):
         self.columns, self.rows = columns, rows
         self.cells = [[" "] * columns for _ in range(rows)]
+        self.top, self.bottom = 0, rows - 1
         self.set_size(columns, rows)
         self.process.send_signal(signal.SIGWINCH)
 
@@ -71,12 +74,17 @@ class Screen:
             time.sleep(0.02)
         return self.process.poll()
 
+    def hang_up(self):
+        os.close(self.master)
+        self.master = None
+
     def close(self):
         if self.process.poll() is None:
             self.process.kill()
         self.process.wait()
         self.process.stderr.close()
-        os.close(self.master)
+        if self.master is not None:
+            os.close(self.master)
 
     # ---- what a terminal does
 
@@ -90,6 +98,8 @@ class Screen:
                     self.raw = self.raw[1:]
                     continue
                 self.raw = self.raw[found.end():]
+                if len(found.group()) == 2:
+                    self.escape(found.group()[1:].decode())
                 if found.group(3) and not found.group(1):
                     self.control(found.group(3).decode(), [int(n or 0) for n in found.group(2).split(b";")])
                 continue
@@ -103,7 +113,7 @@ class Screen:
         if char == "\r":
             self.column = 0
         elif char == "\n":
-            self.row = min(self.row + 1, self.rows - 1)
+            self.down()
         elif char == "\b":
             self.column = max(self.column - 1, 0)
         elif char == "\t":
@@ -113,6 +123,31 @@ class Screen:
                 self.cells[self.row][self.column] = char
             self.column += 1
             self.last = char
+
+    def scroll(self, first, count):
+        """Moves the lines from `first` to the end of those that scroll: up, or down if `count` is negative."""
+        for _ in range(abs(count)):
+            del self.cells[first if count > 0 else self.bottom]
+            self.cells.insert(self.bottom if count > 0 else first, [" "] * self.columns)
+
+    def down(self):
+        if self.row == self.bottom:
+            self.scroll(self.top, 1)
+        else:
+            self.row = min(self.row + 1, self.rows - 1)
+
+    def escape(self, letter):
+        if letter == "M":
+            if self.row == self.top:
+                self.scroll(self.top, -1)
+            else:
+                self.row = max(self.row - 1, 0)
+        elif letter == "D":
+            self.down()
+        elif letter == "7":
+            self.saved = (self.row, self.column)
+        elif letter == "8":
+            self.row, self.column = self.saved
 
     def control(self, letter, numbers):
         first = numbers[0]
@@ -149,11 +184,14 @@ class Screen:
         elif letter == "@":
             line = self.cells[self.row]
             self.cells[self.row] = (line[:self.column] + [" "] * count + line[self.column:])[:self.columns]
-        elif letter == "L":
+        elif letter in "LM":
+            self.scroll(self.row, count if letter == "M" else -count)
+        elif letter in "ST":
+            self.scroll(self.top, count if letter == "S" else -count)
+        elif letter == "Z":
             for _ in range(count):
-                self.cells.insert(self.row, [" "] * self.columns)
-                self.cells.pop()
-        elif letter == "M":
-            for _ in range(count):
-                del self.cells[self.row]
-                self.cells.append([" "] * self.columns)
+                self.column = (self.column - 1) // 8 * 8 if self.column else 0
+        elif letter == "r":
+            self.top = max(first, 1) - 1
+            self.bottom = min(numbers[1] if len(numbers) > 1 and numbers[1] else self.rows, self.rows) - 1
+            self.row = self.column = 0

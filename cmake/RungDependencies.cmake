@@ -26,6 +26,9 @@ find_package(pugixml 1.13 REQUIRED CONFIG)
 find_package(tomlplusplus 3.3 REQUIRED CONFIG)
 find_path(RUNG_EDIT_INCLUDE histedit.h REQUIRED)
 find_library(RUNG_EDIT_LIBRARY edit REQUIRED)
+find_path(RUNG_NCURSES_INCLUDE ncurses.h REQUIRED)
+find_library(RUNG_NCURSES_LIBRARY ncursesw REQUIRED)
+find_library(RUNG_TINFO_LIBRARY tinfo REQUIRED)
 find_path(RUNG_UTF8PROC_INCLUDE utf8proc.h REQUIRED)
 find_library(RUNG_UTF8PROC_LIBRARY utf8proc REQUIRED)
 find_path(RUNG_SECCOMP_INCLUDE seccomp.h REQUIRED)
@@ -42,6 +45,11 @@ find_package(LLD 19.1 REQUIRED CONFIG)
 add_library(rung_edit INTERFACE)
 target_include_directories(rung_edit SYSTEM INTERFACE "${RUNG_EDIT_INCLUDE}")
 target_link_libraries(rung_edit INTERFACE "${RUNG_EDIT_LIBRARY}")
+
+# The whole screen of a terminal; its package has no CMake config file.
+add_library(rung_ncurses INTERFACE)
+target_include_directories(rung_ncurses SYSTEM INTERFACE "${RUNG_NCURSES_INCLUDE}")
+target_link_libraries(rung_ncurses INTERFACE "${RUNG_NCURSES_LIBRARY}" "${RUNG_TINFO_LIBRARY}")
 
 # Modbus TCP; its package has no CMake config file.
 add_library(rung_modbus INTERFACE)

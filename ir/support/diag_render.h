@@ -1,11 +1,15 @@
 // Diagnostics as text for a terminal and as JSON for tools.
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 #include "ir/support/diagnostics.h"
 
 namespace rung {
+
+/// Commands whose purpose is not to check show no warnings if there are more than these.
+inline constexpr size_t kMostWarnings = 10;
 
 struct RenderOptions {
   bool color = false;

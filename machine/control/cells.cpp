@@ -306,7 +306,8 @@ json Cells::set(const Peer& peer, const json& request) {
   const rung_value value = fromJson(type, request["value"], name);
   const host::Command done =
       plc_.post({.kind = host::Command::Kind::Write, .cell = found.cells.front(), .value = value});
-  plc_.logChange(peer, "set " + name + " from " + textOf(type, done.former) + " to " + textOf(type, value));
+  plc_.logChange(peer, LogKind::Set,
+                 "set " + name + " from " + textOf(type, done.former) + " to " + textOf(type, value));
   json answer = {{"name", name}, {"former", toJson(type, done.former)}, {"value", toJson(type, value)}};
   if ((done.state.flags & RUNG_STATE_FAULTED) != 0)
     note = "a fault has stopped the program: only inputs that are set now survive the reset";

@@ -162,11 +162,16 @@ json Changes::reload(const Peer& peer, const json& request) {
     return report;
   }
   if (flagOf(request, "late")) check(rung_replacement_allow_late(made));
+  auto info = sized<rung_replacement_info>();
+  check(rung_replacement_report(made, &info));
+  const uint32_t former = plc_.program().number;
+  tables_.learn(image.program(), info.program);
   report = putInPlace(made, pins.dead, std::move(report),
                       "another program has taken over in the meantime; all forces have ended");
   replacement_ = std::move(replacement);
+  tables_.forgetOthers(info.program, former);
   cells_.learn(image.program());
-  plc_.logChange(peer, "reload " + next.text + forces_.endedForces());
+  plc_.logChange(peer, LogKind::Reload, "reload " + next.text + forces_.endedForces());
   return report;
 }
 
@@ -183,7 +188,8 @@ json Changes::rollback(const Peer& peer, const json&) {
   report = putInPlace(replacement_.get(), pins.dead, std::move(report),
                       "the former program has taken over in the meantime; all forces have ended");
   report["program"] = plc_.program().name;
-  plc_.logChange(peer, "rollback to " + report["program"].get<std::string>() + forces_.endedForces());
+  plc_.logChange(peer, LogKind::Rollback,
+                 "rollback to " + report["program"].get<std::string>() + forces_.endedForces());
   return report;
 }
 
@@ -212,7 +218,8 @@ json Changes::shadow(const Peer& peer, const json& request) {
   shadowsFor_ = peer.number;
   compared_ = nullptr;
   plc_.post({.kind = host::Command::Kind::Shadow, .shadow = made}, kTakeOverTime);
-  plc_.logChange(peer, "shadow " + next.text + " for " + std::to_string(scans->get<uint32_t>()) + " scans");
+  plc_.logChange(peer, LogKind::Shadow,
+                 "shadow " + next.text + " for " + std::to_string(scans->get<uint32_t>()) + " scans");
   return json::object();
 }
 

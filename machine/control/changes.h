@@ -13,6 +13,7 @@
 #include "machine/control/compile_service.h"
 #include "machine/control/forces.h"
 #include "machine/control/plc_access.h"
+#include "machine/control/program_tables.h"
 #include "machine/control/server.h"
 #include "rung/runtime.hpp"
 
@@ -21,8 +22,9 @@ namespace rung::control {
 // Service thread. Throws Refused for requests that cannot be executed.
 class Changes {
 public:
-  Changes(PlcAccess& plc, Cells& cells, Forces& forces, const CompileService& compiler, Programs& programs)
-      : plc_(plc), cells_(cells), forces_(forces), compiler_(compiler), programs_(programs) {}
+  Changes(PlcAccess& plc, Cells& cells, Forces& forces, ProgramTables& tables, const CompileService& compiler,
+          Programs& programs)
+      : plc_(plc), cells_(cells), forces_(forces), tables_(tables), compiler_(compiler), programs_(programs) {}
 
   // Requests of docs/control-protocol.md.
   nlohmann::json reload(const Peer& peer, const nlohmann::json& request);
@@ -54,6 +56,7 @@ private:
   PlcAccess& plc_;
   Cells& cells_;
   Forces& forces_;
+  ProgramTables& tables_;
   const CompileService& compiler_;
   Programs& programs_;
   std::unique_ptr<rung_replacement, Ends<rung_replacement, rung_replacement_free>> replacement_; // the last reload

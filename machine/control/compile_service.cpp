@@ -87,7 +87,7 @@ json CompileService::compile(const Peer& peer, const json&) {
   const size_t bytes = packed_.size();
   compilation_ = std::make_unique<Compilation>(std::exchange(packed_, {}));
   lastUse_ = Clock::now();
-  plc_.logChange(peer, "compile " + std::to_string(bytes) + " bytes of sources");
+  plc_.logChange(peer, LogKind::Compile, "compile " + std::to_string(bytes) + " bytes of sources");
   return {{"bytes", bytes}};
 }
 

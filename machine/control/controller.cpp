@@ -35,11 +35,15 @@ struct Controller::Request {
 };
 
 const Controller::Request Controller::kRequests[] = {
-    {"status", {}, Request::by<&Controller::status_, &Status::status>},
+    {"status", {}, Request::own<&Controller::status>},
     {"messages", {}, Request::by<&Controller::messages_, &Messages::messages>},
+    {"acknowledge", host::Remote::Acknowledge, Request::by<&Controller::messages_, &Messages::acknowledge>},
+    {"log", {}, Request::by<&Controller::messages_, &Messages::log>},
     {"get", {}, Request::by<&Controller::cells_, &Cells::get>},
     {"watch", {}, Request::by<&Controller::cells_, &Cells::watch>},
     {"map", {}, Request::by<&Controller::status_, &Status::map>},
+    {"program", {}, Request::by<&Controller::tables_, &ProgramTables::program>},
+    {"rungs", {}, Request::by<&Controller::tables_, &ProgramTables::rungs>},
     {"profile", {}, Request::by<&Controller::status_, &Status::profile>},
     {"clear-profile", host::Remote::Profile, Request::own<&Controller::clearProfile>},
     {"set", host::Remote::Set, Request::by<&Controller::cells_, &Cells::set>},
@@ -95,24 +99,34 @@ json Controller::answer(const Peer& peer, const json& request) {
 
 // ---- its own -------------------------------------------------------------------------------------------------------
 
-json Controller::simple(host::Command::Kind kind, const Peer& peer, const char* what) {
-  plc_.post({.kind = kind});
-  plc_.logChange(peer, what);
+json Controller::simple(host::Command::Kind command, const Peer& peer, LogKind kind, const char* text) {
+  plc_.post({.kind = command});
+  plc_.logChange(peer, kind, text);
   return json::object();
 }
 
-json Controller::start(const Peer& peer, const json&) { return simple(host::Command::Kind::Start, peer, "start"); }
+json Controller::status(const Peer&, const json&) {
+  json status = status_.status();
+  status["requests"] = services_.waiting();
+  return status;
+}
 
-json Controller::reset(const Peer& peer, const json&) { return simple(host::Command::Kind::Restart, peer, "reset"); }
+json Controller::start(const Peer& peer, const json&) {
+  return simple(host::Command::Kind::Start, peer, LogKind::Start, "start");
+}
+
+json Controller::reset(const Peer& peer, const json&) {
+  return simple(host::Command::Kind::Restart, peer, LogKind::Reset, "reset");
+}
 
 json Controller::clearProfile(const Peer& peer, const json&) {
-  return simple(host::Command::Kind::ClearProfile, peer, "clear the profile");
+  return simple(host::Command::Kind::ClearProfile, peer, LogKind::Profile, "clear the profile");
 }
 
 json Controller::stop(const Peer& peer, const json&) {
   plc_.post({.kind = host::Command::Kind::Stop});
   changes_.programStopped();
-  plc_.logChange(peer, "stop" + forces_.endedForces());
+  plc_.logChange(peer, LogKind::Stop, "stop" + forces_.endedForces());
   forces_.refusePending("the program has been stopped in the meantime; all forces have ended");
   return json::object();
 }
@@ -136,7 +150,7 @@ json Controller::event(const Peer& peer, const json& request) {
                  },
              .actor = &doing});
   if (!doing.problem.empty()) throw Refused(doing.problem);
-  plc_.logChange(peer, "event " + doing.name + " " + keys.dump());
+  plc_.logChange(peer, LogKind::Event, "event " + doing.name + " " + keys.dump());
   return json::object();
 }
 
@@ -144,14 +158,23 @@ json Controller::event(const Peer& peer, const json& request) {
 
 Controller::Controller(std::string host, host::PlcHost& plc, const Image& image, Log& log,
                        std::unique_ptr<Programs> programs)
-    : plc_(plc, log), programs_(std::move(programs)), status_(plc_, std::move(host), image.program().dialect),
-      messages_(plc, log), cells_(plc_), compiler_(plc_), forces_(plc_, cells_, *programs_),
-      changes_(plc_, cells_, forces_, compiler_, *programs_), services_(plc) {
+    : log_(log), plc_(plc, log), programs_(std::move(programs)),
+      status_(plc_, std::move(host), image.program().dialect), messages_(plc, log), cells_(plc_), tables_(plc_, image),
+      compiler_(plc_), forces_(plc_, cells_, *programs_),
+      changes_(plc_, cells_, forces_, tables_, compiler_, *programs_), services_(plc) {
   programs_->serveForces(image);
   cells_.learn(image.program());
 }
 
-Controller::~Controller() { programs_->abandon(); }
+Controller::~Controller() {
+  programs_->abandon();
+  if (started_) log_.always("the host has ended");
+}
+
+void Controller::logStart() {
+  log_.always("started with the program " + tables_.text());
+  started_ = true;
+}
 
 void Controller::gone(const Peer& peer) {
   cells_.gone(peer);
@@ -164,11 +187,11 @@ void Controller::gone(const Peer& peer) {
 
 void Controller::serveProgram(Sink* sink) {
   host::PlcHost& plc = plc_.host();
-  std::vector<std::string> reports;
+  std::vector<host::Report> reports;
   const bool isStopped = !plc.running(); // a restart is finished in this turn
   plc.serve(reports);
   if (std::exchange(restarts_, plc.restarts()) != plc.restarts()) messages_.programRestarted(sink);
-  for (const std::string& text : reports) messages_.report(text, sink);
+  for (const host::Report& report : reports) messages_.report(report, sink);
   if (isStopped)
     if (const std::string names = forces_.takeEndedNames(); !names.empty())
       messages_.report("the forces of " + names + " have ended", sink);

@@ -14,6 +14,7 @@
 #include "machine/control/log.h"
 #include "machine/control/messages.h"
 #include "machine/control/plc_access.h"
+#include "machine/control/program_tables.h"
 #include "machine/control/server.h"
 #include "machine/control/services.h"
 #include "machine/control/status.h"
@@ -33,8 +34,6 @@ public:
   Controller(const Controller&) = delete;
   Controller& operator=(const Controller&) = delete;
 
-  // Also writes messages to this file. To be called before the first turn.
-  void keepHistory(const std::string& path) { messages_.keepHistory(path); }
   // Sets a function that adds members to the host's status. To be called before the first request.
   void addToStatus(std::function<void(nlohmann::json&)> add) { status_.addToStatus(std::move(add)); }
 
@@ -42,6 +41,9 @@ public:
   // control, and returns "" or an error message. To be called before the first request.
   using Event = std::function<std::string(const std::string& name, const nlohmann::json& keys)>;
   void setSimulation(Event act) { simulation_ = std::move(act); }
+
+  // Adds the start of the program to the log; its end is added by the destructor.
+  void logStart();
 
   nlohmann::json greeting() override { return status_.greeting(); }
   nlohmann::json answer(const Peer& peer, const nlohmann::json& request) override;
@@ -59,22 +61,26 @@ private:
   static const Request kRequests[];
 
   const Request& requestOf(const nlohmann::json& request) const;
+  nlohmann::json status(const Peer& peer, const nlohmann::json& request);
   nlohmann::json stop(const Peer& peer, const nlohmann::json& request);
   nlohmann::json start(const Peer& peer, const nlohmann::json& request);
   nlohmann::json reset(const Peer& peer, const nlohmann::json& request);
   nlohmann::json clearProfile(const Peer& peer, const nlohmann::json& request);
   nlohmann::json event(const Peer& peer, const nlohmann::json& request);
-  nlohmann::json simple(host::Command::Kind kind, const Peer& peer, const char* what);
+  nlohmann::json simple(host::Command::Kind command, const Peer& peer, LogKind kind, const char* text);
 
+  Log& log_;
   PlcAccess plc_;
   std::unique_ptr<Programs> programs_;
   Status status_;
   Messages messages_;
   Cells cells_;
+  ProgramTables tables_;
   CompileService compiler_;
   Forces forces_;
   Changes changes_;
   Services services_;
+  bool started_ = false;  // the start is in the log
   Event simulation_;      // empty: no simulation
   uint32_t restarts_ = 0; // restarts of the plc when messages were last reported
 };

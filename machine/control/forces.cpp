@@ -27,10 +27,11 @@ struct Forces::Change {
   Peer peer;
   std::vector<HeldCell> before;
   std::vector<HeldCell> cells; // after the change
-  std::string text;            // for the log
-  json answer;                 // once the change is done
-  json id;                     // {"id": ID} if the request has an ID, otherwise {}
-  std::string refused = {};    // why the change has been cancelled
+  LogKind kind = LogKind::Force;
+  std::string text;         // for the log
+  json answer;              // once the change is done
+  json id;                  // {"id": ID} if the request has an ID, otherwise {}
+  std::string refused = {}; // why the change has been cancelled
 };
 
 namespace {
@@ -95,7 +96,7 @@ void Forces::putInEffect(const Change& change, ForceSet forces) {
   forces_ = std::move(forces); // the previous set has ended
   heldNames_.clear();
   for (const HeldCell& cell : change.cells) heldNames_.push_back(cell.name);
-  plc_.logChange(change.peer, change.text);
+  plc_.logChange(change.peer, change.kind, change.text);
 }
 
 // Returns the answer; null if it follows later.
@@ -158,6 +159,7 @@ json Forces::force(const Peer& peer, const json& request) {
   return begin({.peer = peer,
                 .before = std::move(before),
                 .cells = std::move(cells),
+                .kind = LogKind::Force,
                 .text = "force " + name + " to " + textOf(type, value),
                 .answer = {{"name", name}, {"value", toJson(type, value)}},
                 .id = idOf(request)});
@@ -185,6 +187,7 @@ json Forces::unforce(const Peer& peer, const json& request) {
   return begin({.peer = peer,
                 .before = std::move(before),
                 .cells = std::move(left),
+                .kind = LogKind::Unforce,
                 .text = all ? "unforce all" : "unforce " + name,
                 .answer = std::move(answer),
                 .id = idOf(request)});

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <ctime>
+#include <filesystem>
 #include <iterator>
 
 #include "rtlib/text/controls.h"
@@ -26,7 +27,43 @@ Log::~Log() {
   for (const Known& known : known_) writeCount(known);
 }
 
-bool Log::line(const std::string& text) {
+void Log::keep(const std::string& path, uint64_t mostBytes) {
+  file_ = std::make_unique<LogFile>(entries_, std::filesystem::absolute(path).string(), mostBytes);
+}
+
+void Log::keepBeside(const std::string& retained, uint64_t mostBytes) {
+  keep(retained + ".log", mostBytes);
+  const std::string former = retained + ".messages";
+  if (std::filesystem::exists(former))
+    always(former + ", the messages of an earlier version, is not continued; `rungctl log FILE` shows it");
+}
+
+bool Log::add(LogEntry entry) {
+  const bool isNew = writeRepeated(textOf(entry));
+  entries_.happen(std::move(entry), clock_.dateS(), !isNew);
+  return isNew;
+}
+
+void Log::always(LogEntry entry) {
+  const int64_t now = clock_.dateS();
+  write(now, textOf(entry));
+  entries_.happen(std::move(entry), now);
+}
+
+bool Log::come(const LogEntry::Key& key, const std::string& text) {
+  const bool isNew = writeRepeated(text);
+  entries_.come(key, text, clock_.dateS(), !isNew);
+  return isNew;
+}
+
+std::string Log::tick() {
+  const int64_t now = clock_.dateS();
+  settle(now);
+  return file_ == nullptr ? "" : file_->tick(now);
+}
+
+// Returns false if the line is only counted.
+bool Log::writeRepeated(const std::string& text) {
   const int64_t now = clock_.dateS();
   settle(now);
   auto known = std::ranges::find(known_, text, &Known::text);

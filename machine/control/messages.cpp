@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "machine/control/plc_access.h"
 #include "machine/control/turn.h"
 #include "machine/control/values.h"
 
@@ -17,61 +18,90 @@ namespace {
 
 constexpr size_t kMostRecent = 200; // messages in an answer without the history
 
-json jsonOf(const History& history, const History::Entry& entry) {
-  json out = {{"text", entry.text}, {"came", entry.cameS}, {"on", history.isOn(entry)}};
-  out["kind"] = entry.key ? "message" : "event";
-  if (entry.wentS) out["went"] = *entry.wentS;
-  if (entry.times != 1) out["times"] = entry.times;
-  if (entry.cut) out["cut"] = true;
+// Whether `messages` shows entries of this kind: what the operator sees, and what the program adds to the log.
+bool isMessage(LogKind kind) { return kind <= LogKind::Report; }
+
+json jsonOf(const LogEntries& log, const LogEntry& entry) {
+  json out = control::jsonOf(entry);
+  if (entry.key) out["on"] = log.isOn(entry);
   return out;
 }
 
-// The most recent entries, or all if `all` is set; messages that are on are always included.
-std::vector<History::Entry> wantedOf(const History& history, bool all) {
-  std::vector<History::Entry> wanted;
+// The most recent messages, or all if `all` is set; those that are on are always included.
+std::vector<LogEntry> wantedOf(const LogEntries& log, bool all) {
+  std::vector<LogEntry> wanted;
   size_t recent = 0;
-  for (const History::Entry& entry : history.shown())
-    if (history.entries().empty() || entry.number < history.entries().front().number) wanted.push_back(entry);
-  for (const History::Entry& entry : history.entries()) recent += history.isNew(entry) ? 1 : 0;
-  for (const History::Entry& entry : history.entries()) {
-    const bool isRecent = history.isNew(entry) && recent-- <= kMostRecent;
-    if (all || isRecent || history.isOn(entry)) wanted.push_back(entry);
+  for (const LogEntry& entry : log.shown())
+    if (log.entries().empty() || entry.number < log.entries().front().number) wanted.push_back(entry);
+  for (const LogEntry& entry : log.entries()) recent += isMessage(entry.kind) && log.isNew(entry) ? 1 : 0;
+  for (const LogEntry& entry : log.entries()) {
+    if (!isMessage(entry.kind)) continue;
+    const bool isRecent = log.isNew(entry) && recent-- <= kMostRecent;
+    if (all || isRecent || log.isOn(entry)) wanted.push_back(entry);
   }
   return wanted;
 }
 
 std::string lineOf(int64_t seconds, const std::string& text) { return dateText(seconds) + " " + text; }
 
+LogKind kindOf(host::Report::Kind kind) {
+  if (kind == host::Report::Kind::Fault) return LogKind::Fault;
+  return kind == host::Report::Kind::Restart ? LogKind::Restart : LogKind::Report;
+}
+
 } // namespace
 
-Messages::~Messages() { history_.end(plc_.clock().dateS()); }
+Messages::~Messages() { log_.end(); }
+
+void Messages::gone(const Peer& peer) {
+  std::erase(following_, peer.number);
+  followingLog_.erase(peer.number);
+}
+
+// ---- requests ------------------------------------------------------------------------------------------------------
 
 json Messages::messages(const Peer& peer, const json& request) {
   const bool all = flagOf(request, "history");
   if (flagOf(request, "follow") && std::ranges::find(following_, peer.number) == following_.end())
     following_.push_back(peer.number);
   json lines = json::array(), entries = json::array(), shown = json::array();
-  for (const History::Entry& entry : wantedOf(history_, all)) {
+  for (const LogEntry& entry : wantedOf(log_.entries(), all)) {
     lines.push_back(lineOf(entry.cameS, entry.text));
-    entries.push_back(jsonOf(history_, entry));
+    entries.push_back(jsonOf(log_.entries(), entry));
   }
-  for (const History::Entry& entry : history_.shown()) shown.push_back(entry.text);
+  for (const LogEntry& entry : log_.entries().shown()) shown.push_back(entry.text);
   return {{"messages", lines}, {"entries", entries}, {"shown", shown}};
 }
 
+json Messages::acknowledge(const Peer& peer, const json&) {
+  const std::vector<std::string> texts = log_.acknowledge();
+  if (!texts.empty())
+    log_.always({.kind = LogKind::Acknowledge, .text = "acknowledge " + joined(texts, ", "), .by = personOf(peer)});
+  return {{"acknowledged", texts}};
+}
+
+json Messages::log(const Peer& peer, const json& request) {
+  const LogEntries& log = log_.entries();
+  if (flagOf(request, "follow")) followingLog_[peer.number] = log.version();
+  json entries = json::array();
+  for (const LogEntry& entry : log.entries()) entries.push_back(jsonOf(log, entry));
+  json answer = {{"entries", entries}};
+  if (log_.file() == nullptr) return answer;
+  answer["file"] = log_.file()->path();
+  if (!log_.file()->problem().empty()) answer["problem"] = log_.file()->problem();
+  return answer;
+}
+
+// ---- turns ---------------------------------------------------------------------------------------------------------
+
 void Messages::programRestarted(Sink* sink) {
-  for (const std::string& text : history_.goAll(plc_.clock().dateS())) tellFollowers(sink, "gone", text, false);
+  for (const std::string& text : log_.goAll()) tellFollowers(sink, "gone", text, false);
 }
 
 void Messages::work(Sink* sink) {
   passMessages(sink);
-  writeHistory(sink);
-  log_.tick();
-}
-
-void Messages::writeHistory(Sink* sink) {
-  const std::string problem = historyFile_ == nullptr ? "" : historyFile_->tick(plc_.clock().dateS());
-  if (!problem.empty()) report(problem, sink);
+  if (const std::string problem = log_.tick(); !problem.empty()) report(problem, sink);
+  if (sink != nullptr) sendEntries(*sink);
 }
 
 void Messages::passMessages(Sink* sink) {
@@ -80,26 +110,27 @@ void Messages::passMessages(Sink* sink) {
 }
 
 void Messages::pass(const rung_message_info& message, Sink* sink) {
-  const History::Key key{message.number, message.channel, message.index};
-  const int64_t now = plc_.clock().dateS();
+  const LogEntry::Key key{message.number, message.channel, message.index};
   if (message.op == RUNG_MESSAGE_CLEAR) {
-    if (const std::string text = history_.go(key, now); !text.empty()) tellFollowers(sink, "gone", text, false);
+    if (const std::string text = log_.go(key); !text.empty()) tellFollowers(sink, "gone", text, false);
     return;
   }
   std::string text = std::string("message ") + message.text;
   while (text.ends_with(' ')) text.pop_back(); // after a number without a text
-  const bool isNew = log_.line(text);
   const bool isLogged = message.op == RUNG_MESSAGE_LOG;
-  if (!isLogged)
-    history_.come(key, text, now, !isNew);
-  else if (isNew)
-    history_.happen(text, now);
+  if (isLogged)
+    log_.add({.kind = LogKind::Note, .text = text});
+  else
+    log_.come(key, text);
   tellFollowers(sink, "message", text, isLogged);
 }
 
-void Messages::report(const std::string& text, Sink* sink) {
-  if (log_.line(text)) history_.happen(text, plc_.clock().dateS());
-  tellFollowers(sink, "message", text, false);
+void Messages::report(const host::Report& report, Sink* sink) {
+  LogEntry entry{.kind = kindOf(report.kind), .text = report.text};
+  if (report.kind == host::Report::Kind::Fault)
+    entry.place = {.rung = report.rung, .file = report.file, .line = report.line};
+  log_.add(std::move(entry));
+  tellFollowers(sink, "message", report.text, false);
 }
 
 // `logged`: a message only for the log, not for the operator.
@@ -107,6 +138,20 @@ void Messages::tellFollowers(Sink* sink, const char* event, const std::string& t
   if (sink == nullptr) return;
   const std::string line = lineOf(plc_.clock().dateS(), text);
   for (const uint32_t peer : following_) sink->send(peer, {{"event", event}, {"text", line}, {"logged", logged}});
+}
+
+// Sends the entries that are new or have changed, in the order of the changes.
+void Messages::sendEntries(Sink& sink) {
+  const LogEntries& log = log_.entries();
+  for (auto& [peer, version] : followingLog_) {
+    if (version == log.version()) continue;
+    std::vector<const LogEntry*> changed;
+    for (const LogEntry& entry : log.entries())
+      if (entry.version > version) changed.push_back(&entry);
+    std::ranges::sort(changed, {}, &LogEntry::version);
+    for (const LogEntry* entry : changed) sink.send(peer, {{"event", "log"}, {"entry", jsonOf(log, *entry)}});
+    version = log.version();
+  }
 }
 
 } // namespace rung::control

@@ -1,13 +1,13 @@
-// Reports of the program and its host: each line is written to the log, added to the history for later requests, and
-// sent to the clients that follow.
+// What the program and its host report, and the requests for it: each report becomes an entry of the log, and is sent
+// to the clients that follow.
 #pragma once
-#include <memory>
+#include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "machine/control/history.h"
 #include "machine/control/log.h"
 #include "machine/control/server.h"
 #include "machine/host/plc_host.h"
@@ -22,31 +22,31 @@ public:
   Messages(const Messages&) = delete;
   Messages& operator=(const Messages&) = delete;
 
-  // Also writes messages to this file. To be called before the first turn.
-  void keepHistory(const std::string& path) { historyFile_ = std::make_unique<HistoryFile>(history_, path); }
-
-  // The request of docs/control-protocol.md.
+  // The requests of docs/control-protocol.md.
   nlohmann::json messages(const Peer& peer, const nlohmann::json& request);
-  void gone(const Peer& peer) { std::erase(following_, peer.number); }
+  nlohmann::json acknowledge(const Peer& peer, const nlohmann::json& request);
+  nlohmann::json log(const Peer& peer, const nlohmann::json& request);
+  void gone(const Peer& peer);
 
-  void report(const std::string& text, Sink* sink);
+  void report(const host::Report& report, Sink* sink);
+  // A report of the host that is neither a fault nor a restart.
+  void report(const std::string& text, Sink* sink) { report({.text = text}, sink); }
   // The program has been switched on again, so none of its messages is on.
   void programRestarted(Sink* sink);
   // Called in each turn, after the plc was served: reports the program's messages, at most kMostMessages, and writes
-  // the history to its file.
+  // the log to its file.
   void work(Sink* sink);
 
 private:
   void passMessages(Sink* sink);
   void pass(const rung_message_info& message, Sink* sink);
   void tellFollowers(Sink* sink, const char* event, const std::string& text, bool logged);
-  void writeHistory(Sink* sink);
+  void sendEntries(Sink& sink);
 
   host::PlcHost& plc_;
   Log& log_;
-  History history_;
-  std::unique_ptr<HistoryFile> historyFile_; // null: the history is only in memory
-  std::vector<uint32_t> following_;          // numbers of peers
+  std::vector<uint32_t> following_;           // numbers of peers that follow the messages
+  std::map<uint32_t, uint64_t> followingLog_; // of peers that follow the log: the last version that they have got
 };
 
 } // namespace rung::control

@@ -5,6 +5,8 @@
 
 namespace rung::control {
 
+LogEntry::Person personOf(const Peer& peer) { return {.name = peer.name, .user = peer.user, .process = peer.process}; }
+
 rung_program_info PlcAccess::program() const {
   auto info = sized<rung_program_info>();
   check(rung_instance_program(instance(), &info));
@@ -34,9 +36,8 @@ std::vector<rung_force_info> PlcAccess::activeForces() {
   return list;
 }
 
-void PlcAccess::logChange(const Peer& peer, const std::string& text) {
-  log_.always(peer.name + " (user " + std::to_string(peer.user) + ", process " + std::to_string(peer.process) +
-              "): " + text);
+void PlcAccess::logChange(const Peer& peer, LogKind kind, const std::string& text) {
+  log_.always({.kind = kind, .text = text, .by = personOf(peer)});
 }
 
 } // namespace rung::control

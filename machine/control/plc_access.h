@@ -12,6 +12,9 @@
 
 namespace rung::control {
 
+// A client as the log names it.
+LogEntry::Person personOf(const Peer& peer);
+
 // Service thread, which waits for the scan thread while a command is executed.
 class PlcAccess {
 public:
@@ -27,7 +30,7 @@ public:
   std::optional<rung_state> state();
   std::vector<rung_force_info> activeForces();
 
-  void logChange(const Peer& peer, const std::string& text);
+  void logChange(const Peer& peer, LogKind kind, const std::string& text);
 
   static constexpr uint32_t kMostForces = 64;
 

@@ -53,10 +53,12 @@ std::vector<double> positionsOf(const json& request) {
   return positions;
 }
 
-json eventOf(uint32_t ticket, const host::Operation& o) {
-  json event = {
-      {"event", "service"},   {"ticket", ticket},   {"quantity", host::kQuantityNames[static_cast<size_t>(o.quantity)]},
-      {"channel", o.channel}, {"number", o.number}, {"axis", o.axis}};
+json jsonOf(uint32_t ticket, const host::Operation& o) {
+  json event = {{"ticket", ticket},
+                {"quantity", host::kQuantityNames[static_cast<size_t>(o.quantity)]},
+                {"channel", o.channel},
+                {"number", o.number},
+                {"axis", o.axis}};
   if (o.write) event["value"] = o.value;
   if (o.quantity == host::Quantity::AxisMove) {
     event["motion"] = host::kMotionNames[static_cast<size_t>(o.motion)];
@@ -78,6 +80,20 @@ json Services::serve(const Peer& peer, const json& request) {
   plc_.live().served.store(true, std::memory_order_release);
   if (isLost_) reports_.emplace_back("the program is served again");
   return {{"again", std::exchange(isLost_, false)}};
+}
+
+json Services::waiting() const {
+  constexpr size_t kMost = 8;
+  std::vector<const std::pair<const uint32_t, Waiting>*> oldest;
+  for (const auto& entry : waiting_) oldest.push_back(&entry);
+  std::ranges::sort(oldest, {}, [](const auto* entry) { return entry->second.sinceNs; });
+  json list = json::array();
+  for (size_t i = 0; i < oldest.size() && i < kMost; ++i) {
+    json one = jsonOf(oldest[i]->first, oldest[i]->second.operation);
+    addAge(one, plc_.clock(), plc_.clock().nowNs() - oldest[i]->second.sinceNs);
+    list.push_back(one);
+  }
+  return {{"count", waiting_.size()}, {"oldest", list}};
 }
 
 void Services::heard(const Peer& peer) {
@@ -108,7 +124,8 @@ json Services::served(const Peer& peer, const json& request) {
     throw Refused("no request with ticket " + std::to_string(ticket) + " waits: it is answered, or was too late");
   const Waiting& asked = found->second;
   host::NcAnswer answer{.outcome = outcomeOf(request)};
-  if (answer.outcome == Outcome::Done && asked.reads) answer.value = realOf(request.value("value", json()), "value");
+  if (answer.outcome == Outcome::Done && !asked.operation.write)
+    answer.value = realOf(request.value("value", json()), "value");
   plc_.answer(plc_.translation().replyOf(asked.request, answer));
   waiting_.erase(found);
   return json::object();
@@ -159,10 +176,13 @@ void Services::pass(Sink& sink, const rung_request& request) {
   }
   if (!plc_.live().served.load(std::memory_order_relaxed))
     return refuse(request.ticket); // the provider has disconnected since the request
-  const int64_t end = plc_.clock().nowNs() + std::chrono::nanoseconds(kPatience).count();
-  waiting_[request.ticket] = {request, !operation->write,
+  const int64_t now = plc_.clock().nowNs();
+  const int64_t end = now + std::chrono::nanoseconds(kPatience).count();
+  waiting_[request.ticket] = {request, *operation, now,
                               operation->untilOver ? std::numeric_limits<int64_t>::max() : end};
-  sink.send(provider_, eventOf(request.ticket, *operation));
+  json event = jsonOf(request.ticket, *operation);
+  event["event"] = "service";
+  sink.send(provider_, event);
 }
 
 void Services::refuseLate() {

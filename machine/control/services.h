@@ -32,6 +32,8 @@ public:
   // signs of life and sends none counts as disconnected: all motion has stopped, and the program must learn of it
   // before anything moves again.
   void work(Sink& sink);
+  // The requests that wait for an answer, for `status`: `count`, `oldest`.
+  nlohmann::json waiting() const;
   // Takes the reports for the operator since the last call.
   std::vector<std::string> takeReports() { return std::exchange(reports_, {}); }
   // Any request of this peer is a sign of life.
@@ -40,7 +42,8 @@ public:
 private:
   struct Waiting {
     rung_request request;
-    bool reads;
+    host::Operation operation;
+    int64_t sinceNs; // when it was passed to the provider
     int64_t endNs;
   };
   void checkProvider(const Peer& peer) const;

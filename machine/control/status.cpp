@@ -27,23 +27,23 @@ json Status::greeting() const {
 
 namespace {
 
-json jsonOf(const host::FunctionState& functions) {
+json jsonOf(const host::FunctionState& functions, runtime::Clock& clock) {
   json list = json::array();
   for (uint32_t i = 0; i < std::min(functions.count, host::FunctionState::kMost); ++i) {
     const host::FunctionState::Function& function = functions.oldest[i];
     list.push_back({{"function", host::kFunctionKinds[function.kind]},
                     {"code", function.code},
                     {"channel", function.channel + 1},
-                    {"us", function.ageNs / 1000},
                     {"begun", function.begun},
                     {"late", function.late}});
+    addAge(list.back(), clock, function.ageNs);
   }
   return {{"count", functions.count}, {"lost", functions.lost}, {"oldest", list}};
 }
 
 } // namespace
 
-json Status::status(const Peer&, const json&) {
+json Status::status() {
   const rung_program_info program = plc_.program();
   json out = {{"host", host_}, {"program", program.name}, {"dialect", dialect_}};
   if (program.faulted != 0) out["fault_of"] = program.faulted_name;
@@ -57,7 +57,7 @@ json Status::status(const Peer&, const json&) {
   out["scans"] = look.state.scans;
   out["missed"] = look.state.missed;
   out["restarts"] = plc_.host().restarts();
-  out["functions"] = jsonOf(look.functions);
+  out["functions"] = jsonOf(look.functions, plc_.host().clock());
   out["forced"] = plc_.activeForces().size();
   out["us"] = look.state.now_us;
   out["stopped"] = (flags & RUNG_STATE_STOPPED) != 0;

@@ -23,7 +23,7 @@ public:
 
   // Requests of docs/control-protocol.md.
   nlohmann::json greeting() const;
-  nlohmann::json status(const Peer& peer, const nlohmann::json& request);
+  nlohmann::json status();
   nlohmann::json map(const Peer& peer, const nlohmann::json& request);
   // Counters of a program that was built with --profile.
   nlohmann::json profile(const Peer& peer, const nlohmann::json& request);

@@ -49,6 +49,12 @@ std::vector<std::string> namesOf(const json& request) {
   return names;
 }
 
+void addAge(json& out, runtime::Clock& clock, int64_t ageNs) {
+  constexpr int64_t kNsInUs = 1000, kNsInS = 1'000'000'000;
+  out["us"] = ageNs / kNsInUs;
+  out["since"] = clock.dateS() - ageNs / kNsInS;
+}
+
 std::string joined(const std::vector<std::string>& texts, const char* between) {
   std::string all;
   for (const std::string& text : texts) all += (all.empty() ? "" : between) + text;

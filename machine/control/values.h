@@ -10,6 +10,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "rtlib/run/clock.h"
 #include "rung/runtime.h"
 
 namespace rung::control {
@@ -24,6 +25,9 @@ public:
 std::string textOf(const nlohmann::json& request, const char* key);
 bool flagOf(const nlohmann::json& request, const char* key); // false if missing
 std::vector<std::string> namesOf(const nlohmann::json& request);
+
+// Adds an age as `us`, and since when, `since`, in seconds since 1970.
+void addAge(nlohmann::json& out, runtime::Clock& clock, int64_t ageNs);
 
 std::string joined(const std::vector<std::string>& texts, const char* between);
 

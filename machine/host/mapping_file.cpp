@@ -27,8 +27,12 @@ constexpr PinType kPinTypes[] = {PinType::Bit, PinType::S32, PinType::U32, PinTy
 constexpr double kLongestTimeout = 1e6; // seconds
 constexpr double kShortestTimeout = 1e-9;
 
-constexpr std::string_view kPermissions =
-    "a list of \"set\", \"force\", \"reload\", \"start\", \"stop\", \"reset\", \"profile\" and \"serve\"";
+constexpr std::string_view kPermissions = "a list of \"set\", \"force\", \"reload\", \"start\", \"stop\", \"reset\", "
+                                          "\"profile\", \"serve\" and \"acknowledge\"";
+
+constexpr double kMegabyte = 1 << 20;
+constexpr double kLeastLog = 0.1; // megabytes
+constexpr double kMostLog = 1000;
 
 constexpr int64_t kMostBits = 32;
 constexpr size_t kMostFiles = 64; // including nested files
@@ -98,7 +102,8 @@ private:
   template <class Row>
   using Key = text::TomlKey<Reader, Row>;
 
-  static const Key<File> kFileKeys[18];
+  static const Key<File> kFileKeys[19];
+  static const Key<File> kLogKeys[1];
   static const Key<File> kRemoteKeys[2];
   static const Key<PinRow> kType, kName, kScale, kBits, kValue, kSafe;
   static const Key<PinRow> kInputKeys[4], kOutputKeys[5], kParameterKeys[4];
@@ -164,6 +169,21 @@ private:
     const toml::table* table = node.as_table();
     if (table != nullptr) readKeys(*table, "rungctl", kRemoteKeys, map);
     return table != nullptr;
+  }
+  bool takeLog(const toml::node& node, File& map) {
+    const toml::table* table = node.as_table();
+    if (table != nullptr) readKeys(*table, "log", kLogKeys, map);
+    return table != nullptr;
+  }
+  bool takeLogSize(const toml::node& node, File& map) {
+    const std::optional<double> size = text::numberOf(node);
+    if (!size || !(*size >= kLeastLog && *size <= kMostLog)) return false;
+    if (logAt_)
+      fail(positionOf(node), "log.size: found a second one, expected only that of " + lineOf(*logAt_) +
+                                 "; remove one of them");
+    logAt_ = positionOf(node);
+    map.logBytes = static_cast<uint64_t>(*size * kMegabyte);
+    return true;
   }
   bool takePermissions(const toml::node& node, File& map) {
     const toml::array* list = node.as_array();
@@ -288,7 +308,7 @@ private:
 
   const ReadFile& read_;
   ConnectionReader connections_{*this};
-  std::optional<text::Position> timeoutAt_;
+  std::optional<text::Position> timeoutAt_, logAt_;
 };
 
 const Reader::Key<File> Reader::kFileKeys[] = {
@@ -308,6 +328,7 @@ const Reader::Key<File> Reader::kFileKeys[] = {
      &Reader::takeAxisGroups},
     {"abort", false, "a list of tables", "[[abort]] and its keys in the lines after it", &Reader::takeAborts},
     {"rungctl", false, "a table", "[rungctl] and permissions = [ … ] in the lines after it", &Reader::takeRemote},
+    {"log", false, "a table", "[log] and size = 4 in the lines after it", &Reader::takeLog},
     {"modbus-client", false, "a list of tables", "[[modbus-client]] and its keys in the lines after it",
      &Reader::takeClients},
     {"devices", false, "a table", "[devices] and com = { 1 = \"/dev/ttyUSB0\" } in the lines after it",
@@ -319,6 +340,10 @@ const Reader::Key<File> Reader::kFileKeys[] = {
 const Reader::Key<File> Reader::kRemoteKeys[] = {
     {"permissions", false, kPermissions, "permissions = [\"set\"]", &Reader::takePermissions},
     {"protected", false, "a list of names of the program", "protected = [\"X0.0\"]", &Reader::takeProtected},
+};
+
+const Reader::Key<File> Reader::kLogKeys[] = {
+    {"size", false, "megabytes on disk, 0.1 to 1000", "size = 4", &Reader::takeLogSize},
 };
 
 const Reader::Key<PinRow> Reader::kType = {"type", true, "\"bit\", \"s32\", \"u32\" or \"float\"", "type = \"bit\"",

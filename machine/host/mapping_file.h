@@ -107,15 +107,17 @@ struct AxisGroup {
 };
 
 // rungctl: what clients are permitted to do while the program runs.
-enum class Remote : uint8_t { Set, Force, Reload, Start, Stop, Reset, Profile, Serve };
-inline constexpr std::string_view kRemoteNames[] = {"set",  "force", "reload",  "start",
-                                                    "stop", "reset", "profile", "serve"}; // indexed by Remote
+enum class Remote : uint8_t { Set, Force, Reload, Start, Stop, Reset, Profile, Serve, Acknowledge };
+inline constexpr std::string_view kRemoteNames[] = {"set",   "force",   "reload", "start",      "stop",
+                                                    "reset", "profile", "serve",  "acknowledge"}; // indexed by Remote
 
 // rungctl: a cell that clients can neither set nor force.
 struct Protected {
   std::string name;
   text::Position at;
 };
+
+inline constexpr uint64_t kLogBytes = uint64_t{4} << 20;
 
 // The kind of address of a pin's value at the other side of a connection.
 enum class Area : uint8_t { Coil, DiscreteInput, HoldingRegister, InputRegister, Memory };
@@ -195,6 +197,7 @@ struct File {
   std::vector<AxisGroup> axisGroups;
   bool permissions[std::size(kRemoteNames)] = {}; // indexed by Remote
   std::vector<Protected> protectedCells;
+  uint64_t logBytes = kLogBytes; // of the log on disk, both of its files together
   std::vector<Connection> connections;
   std::vector<DeviceSetting> devices;
   std::vector<Edge> aborts;                // edges that end every function: reset, emergency stop

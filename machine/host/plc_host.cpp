@@ -178,7 +178,11 @@ void PlcHost::reportFault() {
   const std::optional<rung_fault_info> info = reported_ ? std::nullopt : fault(); // or the scan thread has it
   if (!info) return;
   reported_ = true;
-  reports_.push_back(stopText(*info));
+  reports_.push_back({.kind = Report::Kind::Fault,
+                      .text = stopText(*info),
+                      .rung = info->rung,
+                      .file = info->file,
+                      .line = info->line});
 }
 
 void PlcHost::restart() {
@@ -188,12 +192,12 @@ void PlcHost::restart() {
   live_.served.store(false, std::memory_order_release); // the provider has commands of the run that has stopped
   std::string problem;
   const bool started = start(problem) >= RUNG_OK;
-  if (!started) reports_.push_back(problem);
+  if (!started) reports_.push_back({.text = problem});
   restartProblem_ = started ? "" : problem;
-  std::ranges::move(logged_, std::back_inserter(reports_));
-  logged_.clear();
+  for (std::string& text : std::exchange(logged_, {})) reports_.push_back({.text = std::move(text)});
   if (started) ++restarts_;
-  reports_.emplace_back(started ? "the program has been restarted" : "the program cannot be restarted");
+  reports_.push_back({.kind = Report::Kind::Restart,
+                      .text = started ? "the program has been restarted" : "the program cannot be restarted"});
   reported_ = !started;
   state_.store(started ? State::Running : State::Stopped, std::memory_order_release);
 }
@@ -203,11 +207,11 @@ void PlcHost::reportSaving() {
   const std::string problem = plc_.unsaved().value_or("");
   if (unsaved_ == problem) return;
   unsaved_ = problem;
-  reports_.push_back(unsaved_.empty() ? "the retained memory is written again"
-                                      : "the retained memory is not written: " + unsaved_);
+  reports_.push_back({.text = unsaved_.empty() ? "the retained memory is written again"
+                                               : "the retained memory is not written: " + unsaved_});
 }
 
-bool PlcHost::serve(std::vector<std::string>& reports) {
+bool PlcHost::serve(std::vector<Report>& reports) {
   const runtime::Alone::In service(serves_);
   restart();
   if (state_.load(std::memory_order_acquire) == State::Stopped) reportFault();

@@ -34,6 +34,17 @@ inline bool isSamePlace(const rung_cell_info& a, const rung_cell_info& b) noexce
   return a.space == b.space && a.byte == b.byte && a.bit == b.bit && a.type == b.type;
 }
 
+// A report of a host to its operator.
+struct Report {
+  enum class Kind : uint8_t { Fault, Restart, Other };
+  Kind kind = Kind::Other;
+  std::string text;
+  // Of a fault.
+  uint32_t rung = 0; // as drawn, from 1; 0: none
+  std::string file;  // "": unknown
+  uint32_t line = 0; // 0: unknown
+};
+
 class PlcHost {
 public:
   using NewInstance = std::function<Instance(const Image& image, const rung_instance_options& options)>;
@@ -126,7 +137,7 @@ public:
 
   // Service thread, periodically: does the work that a step must not do itself: the text of a fault, and the restart
   // after it. Returns true if there was such work; `reports` receives the reports for the operator.
-  bool serve(std::vector<std::string>& reports);
+  bool serve(std::vector<Report>& reports);
   bool running() const noexcept { return state_.load(std::memory_order_acquire) == State::Running; }
   // `serve` is restarting the program: no other code may access the instance.
   bool restarting() const noexcept { return state_.load(std::memory_order_acquire) == State::Restarting; }
@@ -197,7 +208,7 @@ private:
   // Service thread:
   bool reported_ = false; // the fault that stopped the program has been reported
   std::string unsaved_;   // the reported reason why retained memory was not saved; "": none
-  std::vector<std::string> reports_;
+  std::vector<Report> reports_;
   uint32_t restarts_ = 0;
   std::string restartProblem_;
   runtime::Alone scans_;  // only the scan thread

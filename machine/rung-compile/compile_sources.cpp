@@ -1,6 +1,7 @@
 // See compile_sources.h.
 #include "machine/rung-compile/compile_sources.h"
 
+#include <fmt/format.h>
 #include <vector>
 
 #include "codegen/llvm/llvm_emitter.h"
@@ -34,7 +35,10 @@ void checkNames(const compiler::Compiled& compiled, const SourceManager& sources
 }
 
 std::string reportOf(const Diagnostics& diagnostics, const SourceManager& sources) {
-  std::string report = renderText(diagnostics, sources) + closingLine(diagnostics);
+  const bool showsWarnings = diagnostics.warningCount() <= kMostWarnings;
+  std::string report = renderText(diagnostics, sources, {.warnings = showsWarnings});
+  if (!showsWarnings) report += fmt::format("more than {} warnings: `rungc check` shows all\n", kMostWarnings);
+  report += closingLine(diagnostics);
   constexpr std::string_view kCut = "\n(more has been left out)\n";
   if (report.size() <= compile::kMostReport - kCut.size()) return report;
   report.resize(compile::kMostReport - kCut.size());

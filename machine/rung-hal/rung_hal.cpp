@@ -221,7 +221,8 @@ bool loadProgram(PlcInstance& c, const Request& request) {
   c.log = std::make_unique<control::Log>(
       c.host->clock(), [&c](const std::string& line) { rtapi_print("%s: %s\n", c.prefix.c_str(), line.c_str()); });
   c.controller = std::make_unique<control::Controller>(c.prefix, *c.host, *image, *c.log);
-  if (request.retain != nullptr) c.controller->keepHistory(std::string(request.retain) + ".messages");
+  if (request.retain != nullptr) c.log->keepBeside(request.retain, c.host->map().logBytes);
+  c.controller->logStart();
   c.controller->addToStatus([&c](nlohmann::json& status) {
     if (c.conflict.load()) status["not_run"] = conflictText(c);
   });

@@ -90,7 +90,7 @@ public:
                .server = &server_,
                .report = [this] { report(); },
                .turnDone = [this] { manager_.feed(scans_.steps(), host_->clock().nowNs()); }});
-    if (!options.retain.empty()) controller_.keepHistory(options.retain + ".messages");
+    if (!options.retain.empty()) log_.keepBeside(options.retain, host_->map().logBytes);
     controller_.addToStatus([this](nlohmann::json& status) {
       rung_run::addStatus(status, scans_.periodNs(), scans_.figures(), connections_.figures());
     });
@@ -106,6 +106,7 @@ public:
     devices_.start();
     if (const std::string wrong = scans_.start(); !wrong.empty()) return log_.always(wrong), int{cli::kEnvironment};
     log_.always("listening at " + server_.path());
+    controller_.logStart();
     manager_.ready();
     while (!signals_.came()) loop_.turn();
     return end();
@@ -283,8 +284,7 @@ void addOptions(cli::Command& command, Options& options) {
               "Microseconds that a slice may take; a longer one stops the program with a fault; default: only the step "
               "budget is checked")
       .between(1u, 3'600'000'000u);
-  command.option("--retain", options.retain,
-                 "Keep the retained memory in FILE.a and FILE.b, and the history of messages in FILE.messages");
+  command.option("--retain", options.retain, "Keep the retained memory in FILE.a and FILE.b, and the log in FILE.log");
   command.option("--priority", options.priority, "Real-time priority 1 to 99 (SCHED_FIFO); default: normal scheduling")
       .between(1, 99);
   command.flag("--lock-memory", options.lockMemory, "Lock all memory in RAM");

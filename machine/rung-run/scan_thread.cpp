@@ -43,7 +43,7 @@ void ScanThread::step(int64_t nowNs, int64_t elapsedNs) {
 namespace {
 
 constexpr auto kRelaxed = std::memory_order_relaxed;
-constexpr size_t kParts = 4; // number of classes of lateness per power of two
+constexpr size_t kParts = 4; // number of classes per power of two
 
 // Only the scan thread writes, so no compare-and-exchange is needed.
 void raise(std::atomic<int64_t>& most, int64_t value) noexcept {
@@ -73,7 +73,9 @@ void StepTimes::add(const Step& step, bool isOverrun) noexcept {
   raise(longest_, step.periodNs);
   raise(latest_, step.lateNs);
   sum_.fetch_add(step.tookNs, kRelaxed);
-  late_[std::min(classOf(step.lateNs), kClasses - 1)].fetch_add(1, kRelaxed);
+  last_.store(step.tookNs, kRelaxed);
+  count(late_, step.lateNs);
+  count(took_, step.tookNs);
   addWorst(step);
 }
 
@@ -86,14 +88,18 @@ void StepTimes::addWorst(const Step& step) noexcept {
   }
 }
 
-int64_t StepTimes::lateOf(uint64_t steps, double share) const {
+void StepTimes::count(Classes& classes, int64_t ns) noexcept {
+  classes[std::min(classOf(ns), kClasses - 1)].fetch_add(1, kRelaxed);
+}
+
+int64_t StepTimes::quantileOf(const Classes& classes, uint64_t steps, double share, int64_t most) {
   const auto wanted = static_cast<uint64_t>(static_cast<double>(steps) * share);
   uint64_t sum = 0;
   for (size_t i = 0; i < kClasses; ++i) {
-    sum += late_[i].load(kRelaxed);
-    if (sum >= wanted) return std::min(endOf(i), latest_.load(kRelaxed));
+    sum += classes[i].load(kRelaxed);
+    if (sum >= wanted) return std::min(endOf(i), most);
   }
-  return latest_.load(kRelaxed);
+  return most;
 }
 
 StepFigures StepTimes::figures() const {
@@ -101,9 +107,14 @@ StepFigures StepTimes::figures() const {
   if (now.steps == 0) return now;
   now.shortestPeriodNs = shortest_.load(kRelaxed);
   now.longestPeriodNs = longest_.load(kRelaxed);
-  now.late99Ns = lateOf(now.steps, 0.99);
-  now.late999Ns = lateOf(now.steps, 0.999);
   now.latestNs = latest_.load(kRelaxed);
+  now.late99Ns = quantileOf(late_, now.steps, 0.99, now.latestNs);
+  now.late999Ns = quantileOf(late_, now.steps, 0.999, now.latestNs);
+  now.lastNs = last_.load(kRelaxed);
+  const int64_t longest = worst_[0].tookNs.load(kRelaxed);
+  now.took50Ns = quantileOf(took_, now.steps, 0.5, longest);
+  now.took99Ns = quantileOf(took_, now.steps, 0.99, longest);
+  now.took999Ns = quantileOf(took_, now.steps, 0.999, longest);
   now.meanNs = sum_.load(kRelaxed) / static_cast<int64_t>(now.steps);
   for (const WorstStep& worst : worst_)
     if (const int64_t took = worst.tookNs.load(kRelaxed); took != 0)

@@ -29,7 +29,11 @@ struct StepFigures {
   int64_t late99Ns = 0; // 99 % of the steps began no later than this; at most 25 % too high
   int64_t late999Ns = 0;
   int64_t latestNs = 0;
-  int64_t meanNs = 0; // mean time of a step
+  int64_t lastNs = 0;   // time of the last step
+  int64_t meanNs = 0;   // mean time of a step
+  int64_t took50Ns = 0; // half of the steps took no longer than this; at most 25 % too high
+  int64_t took99Ns = 0;
+  int64_t took999Ns = 0;
   struct Worst {
     int64_t tookNs = 0;
     int64_t beginNs = 0;
@@ -47,15 +51,17 @@ public:
 
 private:
   static constexpr size_t kWorst = 3;
-  static constexpr size_t kClasses = 256; // classes of lateness
+  static constexpr size_t kClasses = 256;
+  using Classes = std::array<std::atomic<uint64_t>, kClasses>; // numbers of steps, by how long something took
   static size_t classOf(int64_t ns) noexcept;
   static int64_t endOf(size_t number) noexcept;
   void addWorst(const Step& step) noexcept;
-  int64_t lateOf(uint64_t steps, double share) const;
+  static void count(Classes& classes, int64_t ns) noexcept;
+  static int64_t quantileOf(const Classes& classes, uint64_t steps, double share, int64_t most);
 
   std::atomic<uint64_t> steps_{0}, overruns_{0};
-  std::atomic<int64_t> shortest_{INT64_MAX}, longest_{0}, latest_{0}, sum_{0};
-  std::array<std::atomic<uint64_t>, kClasses> late_{};
+  std::atomic<int64_t> shortest_{INT64_MAX}, longest_{0}, latest_{0}, last_{0}, sum_{0};
+  Classes late_{}, took_{};
   struct WorstStep {
     std::atomic<int64_t> tookNs{0}, beginNs{0};
   };

@@ -46,7 +46,11 @@ void addStatus(nlohmann::json& status, int64_t periodNs, const StepFigures& step
                      {"late_99_us", microseconds(steps.late99Ns)},
                      {"late_999_us", microseconds(steps.late999Ns)},
                      {"latest_us", microseconds(steps.latestNs)},
+                     {"last_us", microseconds(steps.lastNs)},
                      {"mean_us", microseconds(steps.meanNs)},
+                     {"took_50_us", microseconds(steps.took50Ns)},
+                     {"took_99_us", microseconds(steps.took99Ns)},
+                     {"took_999_us", microseconds(steps.took999Ns)},
                      {"worst", worst}};
   status["connections"] = nlohmann::json::array();
   for (const io::Figures& one : connections)

@@ -20,8 +20,12 @@
 #include "machine/control/log.h"
 #include "machine/control/place.h"
 #include "machine/rungctl/client.h"
+#include "machine/rungctl/log.h"
 #include "machine/rungctl/reload.h"
+#include "machine/rungctl/status.h"
+#include "machine/rungctl/top.h"
 #include "machine/rungctl/trace.h"
+#include "machine/rungctl/verify.h"
 #include "machine/rungctl/words.h"
 #include "rtlib/text/bit_word.h"
 #include "rtlib/text/number.h"
@@ -41,122 +45,6 @@ json valueOf(const std::string& text) {
   if (number.form == text::NumberForm::Real && std::isfinite(number.real)) return number.real;
   if (number.form != text::NumberForm::Whole) return text;
   return number.negative ? json(static_cast<int64_t>(number.bits())) : json(number.magnitude);
-}
-
-// The figures that rung-run adds: its clock and its connections.
-std::string clockOf(const json& answer) {
-  if (!answer.contains("clock")) return {};
-  const json& clock = answer["clock"];
-  const auto figure = [&](const char* key) { return clock.value(key, 0.0); };
-  std::string text = fmt::format(
-      "since the host started, every {:.0f} us: {} steps, {} overruns, from step to step {:.1f} to {:.1f} us\n"
-      "start late: 99% within {:.1f} us, 99.9% within {:.1f} us, the latest {:.1f} us\n"
-      "a step took {:.1f} us on average; the longest:",
-      figure("period_us"), clock.value("steps", uint64_t{0}), clock.value("overruns", uint64_t{0}),
-      figure("shortest_period_us"), figure("longest_period_us"), figure("late_99_us"), figure("late_999_us"),
-      figure("latest_us"), figure("mean_us"));
-  for (const json& step : clock.value("worst", json::array()))
-    text += fmt::format("{} {:.1f} us (at {:.3f} s)", text.ends_with(')') ? "," : "", step.value("us", 0.0),
-                        step.value("at_s", 0.0));
-  return text + "\n";
-}
-
-std::string connectionsOf(const json& answer) {
-  std::string text;
-  for (const json& one : answer.value("connections", json::array())) {
-    const std::string problem = one.value("problem", "");
-    text += fmt::format("{}: {}, {} exchanges, lost {} times{}\n", shown(one["name"]),
-                        one.value("alive", false) ? "connected" : "silent", one.value("exchanges", uint64_t{0}),
-                        one.value("losses", uint64_t{0}), problem.empty() ? "" : "; the last problem: " + problem);
-  }
-  return text;
-}
-
-std::string stopOf(const json& answer) {
-  const std::string fault = answer.value("fault", "");
-  const std::string faulty = answer.value("fault_of", "");
-  const std::string problem = answer.value("restart_problem", "");
-  return fmt::format("stopped by a fault{}: {}\n{}", faulty.empty() ? "" : " of " + faulty + ", which was running then",
-                     fault, problem.empty() ? "" : "the last restart has failed: " + problem + "\n");
-}
-
-// M, S and T functions in progress or queued: one line each, the oldest first.
-std::string functionsOf(const json& answer) {
-  std::string text;
-  const json functions = answer.value("functions", json::object());
-  const json oldest = functions.value("oldest", json::array());
-  for (const json& one : oldest) {
-    const uint64_t channel = one.value("channel", uint64_t{1});
-    text += fmt::format("{}{}{}: {} for {:.3f} s{}\n", shown(one["function"]), one["code"].dump(),
-                        channel == 1 ? "" : fmt::format(" in channel {}", channel),
-                        one.value("begun", false) ? "not finished by the program" : "waits for its turn",
-                        static_cast<double>(one.value("us", int64_t{0})) / 1e6,
-                        one.value("late", false) ? ", longer than the timeout of the mapping file" : "");
-  }
-  const auto count = functions.value("count", uint64_t{0});
-  if (count > oldest.size()) text += fmt::format("and {} more functions\n", count - oldest.size());
-  const auto lost = functions.value("lost", uint64_t{0});
-  if (lost != 0) text += fmt::format("functions lost since the host started: {}\n", lost);
-  return text;
-}
-
-std::string runningOf(const json& answer) {
-  return fmt::format("{}: {} scans, {} missed{}; program time {:.3f} s{}\n",
-                     answer.value("stopped", false) ? "stopped by the operator" : "running",
-                     answer.value("scans", uint64_t{0}), answer.value("missed", uint64_t{0}),
-                     answer.value("restarts", uint64_t{0}) != 0 ? " since the last reset" : "",
-                     static_cast<double>(answer.value("us", int64_t{0})) / 1e6,
-                     answer.value("unsaved", false) ? "; the retained memory cannot be written" : "");
-}
-
-int status(Client& client, const Words& words) {
-  const json answer = asked(client, {{"do", "status"}});
-  std::string text = fmt::format("host {}, program {}, dialect {}\n", shown(answer["host"]), shown(answer["program"]),
-                                 shown(answer["dialect"]));
-  if (answer.value("powered_off", false))
-    text += "switched off: the program has ended regularly\n";
-  else if (answer.contains("not_run"))
-    text += "it does not run: " + shown(answer["not_run"]) + "\n";
-  else if (!answer.value("scanned", false))
-    text += "not scanned: the thread of the host does not run\n";
-  else if (answer.value("faulted", false))
-    text += stopOf(answer);
-  else
-    text += runningOf(answer);
-  if (const auto forced = answer.value("forced", size_t{0}); forced != 0)
-    text += fmt::format("{} forced: see rungctl forced\n", forced);
-  print(words, answer, text + functionsOf(answer) + clockOf(answer) + connectionsOf(answer));
-  return cli::kOk;
-}
-
-// "2026-11-29 14:38:04 - 14:38:09  message 3 DOOR IS OPEN"
-std::string entryOf(const json& entry) {
-  constexpr size_t kDate = 11; // "2026-11-29 "
-  const std::string came = control::dateText(entry.value("came", int64_t{0}));
-  std::string went;
-  if (entry.value("on", false))
-    went = "- on now";
-  else if (entry.contains("went"))
-    went = "- " + control::dateText(entry["went"].get<int64_t>());
-  else if (entry.value("kind", "") == "message")
-    went = "- ?";
-  if (went.starts_with("- " + came.substr(0, kDate))) went.erase(2, kDate);
-  std::string text = fmt::format("{} {:<10}  {}", came, went, shown(entry["text"]));
-  if (const auto times = entry.value("times", uint64_t{1}); times != 1) text += fmt::format(" ({} times)", times);
-  return text + (entry.value("cut", false) ? ", still on when the host ended\n" : "\n");
-}
-
-int messages(Client& client, const Words& words) {
-  const json answer = asked(client, {{"do", "messages"}, {"follow", words.follow}, {"history", words.all}});
-  std::string text;
-  for (const json& entry : answer["entries"])
-    if (!words.on || entry.value("on", false)) text += entryOf(entry);
-  print(words, answer, text);
-  while (words.follow && gStop == 0 && std::cout) {
-    const std::optional<json> event = client.event(gStop);
-    if (event) print(words, *event, shown((*event)["text"]) + (event->value("event", "") == "gone" ? " has gone" : ""));
-  }
-  return cli::kOk;
 }
 
 int get(Client& client, const Words& words) {
@@ -365,7 +253,8 @@ struct Row {
   const char* name;
   const char* description;
   void (*options)(cli::Command&, Words&); // null: none
-  int (*run)(Client&, const Words&);
+  int (*run)(Client&, const Words&);      // null: always `alone`
+  int (*alone)(const Words&) = nullptr;   // without a connection: if `run` is null, or there is a FILE
 };
 
 void namesOption(cli::Command& command, Words& words) {
@@ -392,14 +281,37 @@ void reloadOptions(cli::Command& command, Words& words) {
 }
 
 constexpr Row kCommands[] = {
-    {"status", "Show whether the program runs, its scans and its faults", nullptr, status},
+    {"status", "Show whether the program runs, its scans, its faults, and functions that wait", nullptr, status},
     {"messages", "Show messages of the program with their times, and faults and restarts",
      [](cli::Command& command, Words& words) {
        command.flag("-f,--follow", words.follow, "Keep printing new messages until Ctrl+C");
        command.flag("--on", words.on, "Show only messages that are on now");
        command.flag("--history", words.all, "Include messages from before the start of the host, up to 1000");
+       command.flag("--acknowledge", words.acknowledge, "Note in the log that you have seen those that are on");
      },
-     messages},
+     [](Client& client, const Words& words) { return messages(client, words, gStop); }},
+    {"log", "Show what happened: messages, faults, changes by people; kept on disk across restarts",
+     [](cli::Command& command, Words& words) {
+       command.option("FILE", words.file, "A log on disk, FILE.log; default: the log of the running host");
+       command.option("-n,--lines", words.most, "Number of entries, the last ones; default: 50, or all with --since")
+           .between(uint64_t{1}, uint64_t{1'000'000});
+       command.option("--since", words.since,
+                      "Entries since \"2026-11-29\", \"2026-11-29 14:38\", 14:38 today, or 90s, 10m, 2h, 3d ago");
+       command.option("--kind", words.kinds, "Only entries of this kind; may be repeated")
+           .oneOf({std::begin(control::kLogKinds), std::end(control::kLogKinds)})
+           .oneValue();
+       command.flag("-f,--follow", words.follow, "Keep printing new entries until Ctrl+C");
+     },
+     [](Client& client, const Words& words) { return log(client, words, gStop); }, logFile},
+    {"verify", "Say whether the machine runs this program: 0 yes, 1 no, with the rungs that differ, 2 unknown",
+     [](cli::Command& command, Words& words) {
+       command.option("FILE", words.files, "Compiled program (.so), or source files in order, or a project folder")
+           .required();
+     },
+     nullptr, verify},
+    {"top", "Show scan times, costly rungs, changed pins, messages and what waits, once a second",
+     [](cli::Command& command, Words& words) { command.flag("--once", words.once, "Print all of it once, as text"); },
+     nullptr, [](const Words& words) { return top(words, gStop); }},
     {"get", "Show values at the end of a scan", namesOption, get},
     {"watch", "Show values whenever they change, until Ctrl+C",
      [](cli::Command& command, Words& words) {
@@ -467,10 +379,10 @@ public:
     auto taken = std::make_shared<Words>();
     if (row.options != nullptr) row.options(command, *taken);
     addCommon(command, taken->common);
-    command.onRun([this, taken, run = row.run] {
+    command.onRun([this, taken, run = row.run, alone = row.alone] {
       taken->common.asJson = taken->common.asJson || before_.asJson;
       if (taken->common.host.empty()) taken->common.host = before_.host;
-      status_ = begin(*taken, run);
+      status_ = begin(*taken, run, alone);
     });
   }
   void addHosts() {
@@ -488,7 +400,8 @@ private:
     command.option("--host", common.host, "Name of the host; default: the only running one");
     command.flag("--json", common.asJson, "Print the answer as JSON");
   }
-  static int begin(const Words& words, int (*run)(Client&, const Words&)) try {
+  static int begin(const Words& words, int (*run)(Client&, const Words&), int (*alone)(const Words&)) try {
+    if (alone != nullptr && (run == nullptr || !words.file.empty())) return alone(words);
     Client client(words.common.host);
     return run(client, words);
   } catch (const std::exception& problem) {

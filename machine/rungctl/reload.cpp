@@ -33,12 +33,7 @@ std::string_view noteOf(const std::string& kind) {
 
 std::string reportOf(const json& answer) {
   std::string text;
-  for (const json& rung : answer.value("rungs", json::array())) {
-    const std::string title = rung.value("title", "");
-    text +=
-        fmt::format("{} rung {}{}, {}:{}\n", shown(rung["kind"]), shown(rung["rung"]),
-                    title.empty() ? "" : " \"" + shown(rung["title"]) + "\"", shown(rung["file"]), shown(rung["line"]));
-  }
+  for (const json& rung : answer.value("rungs", json::array())) text += rungLine(rung) + "\n";
   for (const json& change : answer.value("changes", json::array()))
     text += fmt::format("{} {}{}{}\n", shown(change["kind"]), shown(change["name"]),
                         change.value("former", "").empty() ? "" : " (was " + shown(change["former"]) + ")",
@@ -158,6 +153,12 @@ int programOf(Client& client, const Words& words, const volatile int& stop, json
 }
 
 } // namespace
+
+std::string rungLine(const json& rung) {
+  const std::string title = rung.value("title", "");
+  return fmt::format("{} rung {}{}, {}:{}", shown(rung["kind"]), shown(rung["rung"]),
+                     title.empty() ? "" : " \"" + title + "\"", shown(rung["file"]), shown(rung["line"]));
+}
 
 int reload(Client& client, const Words& words, const volatile int& stop) {
   json request = json::object();

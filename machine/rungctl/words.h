@@ -1,6 +1,8 @@
 // The arguments of commands, and the functions that all commands share: request, print and fail.
 #pragma once
 #include <chrono>
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,6 +37,11 @@ struct Words {
   unsigned top = 20;
   std::string by = "time";
   bool reset = false;
+  bool acknowledge = false;
+  std::optional<uint64_t> most; // entries of the log
+  std::string since;
+  std::vector<std::string> kinds;
+  bool once = false;
   bool profile = false; // the sources are compiled with profile counters
 };
 

@@ -219,9 +219,35 @@ std::vector<RungMark> rungMarks(const rung_program& program) {
   std::vector<RungMark> marks;
   for (uint32_t i = 0; i < program.rung_count; ++i) {
     const rung_info& rung = program.rungs[i];
-    marks.push_back({program.routines[rung.routine], textOfKey(rung.key, rung.copy), rung.title});
+    marks.push_back({program.routines[rung.routine], textOfKey(rung.key, rung.copy), rung.title, rung.number});
   }
   return marks;
+}
+
+namespace {
+
+bool isFirstPiece(std::span<const RungMark> marks, uint32_t rung) {
+  const uint32_t number = marks[rung].number;
+  return number != 0 && (rung == 0 || marks[rung - 1].number != number);
+}
+
+} // namespace
+
+std::vector<RungChange> changedRungs(std::span<const RungMark> before, std::span<const RungMark> after,
+                                     std::span<const RungPair> pairs) {
+  std::vector<RungChange> changes;
+  std::vector<bool> isThere(before.size(), false);
+  for (const RungPair& pair : pairs) isThere[pair.before] = true;
+  auto pair = pairs.begin();
+  for (uint32_t a = 0; a < after.size(); ++a) {
+    const bool known = pair != pairs.end() && pair->after == a;
+    if (isFirstPiece(after, a) && (!known || pair->kind != RungKind::Same))
+      changes.push_back({known ? pair->kind : RungKind::Changed, known ? pair->before : RUNG_NONE, a});
+    if (known) ++pair;
+  }
+  for (uint32_t b = 0; b < before.size(); ++b)
+    if (!isThere[b] && isFirstPiece(before, b)) changes.push_back({.before = b});
+  return changes;
 }
 
 // Matches state by rungs, and then by keys.

@@ -18,6 +18,7 @@ struct RungMark {
   std::string_view routine;
   uint64_t what = 0; // a hash of its contents: equal for equal rungs
   std::string_view title;
+  uint32_t number = 0; // as drawn, from 1; 0: not drawn. A drawn rung may have several pieces
 };
 
 enum class RungKind : uint8_t {
@@ -44,6 +45,17 @@ std::vector<RungPair> alignRungs(std::span<const RungMark> before, std::span<con
 
 // The marks of the rungs in a program's table.
 std::vector<RungMark> rungMarks(const rung_program& program);
+
+// A rung, as drawn, that differs between the two versions.
+struct RungChange {
+  RungKind kind = RungKind::Changed; // of a rung that both have
+  uint32_t before = RUNG_NONE;       // index in the former version; RUNG_NONE: it is new
+  uint32_t after = RUNG_NONE;        // index in the new version; RUNG_NONE: it was removed
+};
+
+// The changed rungs in the order of the new version, then the removed ones. `pairs`: from alignRungs.
+std::vector<RungChange> changedRungs(std::span<const RungMark> before, std::span<const RungMark> after,
+                                     std::span<const RungPair> pairs);
 
 // Pairs of equal items, ascending on both sides.
 std::vector<std::pair<uint32_t, uint32_t>> align(std::span<const uint64_t> before, std::span<const uint64_t> after);

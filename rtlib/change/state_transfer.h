@@ -55,13 +55,6 @@ struct StateChange {
   std::string formerName; // Renamed
 };
 
-// A rung, as drawn, that differs between the two programs.
-struct RungChange {
-  RungKind kind = RungKind::Changed; // of a rung that both have
-  uint32_t before = RUNG_NONE;       // index in the former program's table; RUNG_NONE: it is new
-  uint32_t after = RUNG_NONE;        // index in the new program's table; RUNG_NONE: it was removed
-};
-
 class StateTransfer {
 public:
   // Both programs have passed checkProgram and outlive the plan. Throws std::length_error if the spaces of one have 512

@@ -126,7 +126,7 @@ public:
     addSlots();
     addContinuations();
     plan_.countBytes();
-    findRungs();
+    plan_.rungs_ = changedRungs(rungMarks(from_), rungMarks(to_), rungs_);
   }
 
 private:
@@ -495,24 +495,6 @@ private:
   }
 
   // Each rung as drawn counts once, by its first part.
-  void findRungs() {
-    std::vector<bool> isThere(from_.rung_count, false);
-    for (const RungPair& pair : rungs_) isThere[pair.before] = true;
-    auto pair = rungs_.begin();
-    for (uint32_t a = 0; a < to_.rung_count; ++a) {
-      const bool known = pair != rungs_.end() && pair->after == a;
-      if (isFirstPiece(to_, a) && (!known || pair->kind != RungKind::Same))
-        plan_.rungs_.push_back({known ? pair->kind : RungKind::Changed, known ? pair->before : RUNG_NONE, a});
-      if (known) ++pair;
-    }
-    for (uint32_t b = 0; b < from_.rung_count; ++b)
-      if (!isThere[b] && isFirstPiece(from_, b)) plan_.rungs_.push_back({.before = b});
-  }
-  static bool isFirstPiece(const rung_program& program, uint32_t rung) {
-    const uint32_t number = program.rungs[rung].number;
-    return number != 0 && (rung == 0 || program.rungs[rung - 1].number != number);
-  }
-
   static uint32_t bytesOf(const rung_slot& slot) { return std::max(1u, elementBits(slot.type) / 8); }
 
   void remove(const rung_slot& former) {

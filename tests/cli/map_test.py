@@ -122,7 +122,7 @@ class Map(unittest.TestCase):
         technol = "examples/technol-mill"
         for program, text, said in (
                 ("examples/gsk-mill", '[rungctl]\npermissions = ["set", "forc"]\n', '2:23: rungctl.permissions: found "forc" in the list, expected a list of "set", "force", '
-                 '"reload", "start", "stop", "reset", "profile" and "serve"; did you mean force?'),
+                 '"reload", "start", "stop", "reset", "profile", "serve" and "acknowledge"; did you mean force?'),
                 ("examples/gsk-mill", "[m-groups]\n70 = 10\n", "2:1: m-groups: found M70 in group 10, expected none, because a control of the dialect gsk has no groups of M functions; "
                  "remove the table [m-groups]"),
                 (technol, "[m-groups]\n70 = 15\n", "2:1: m-groups: found M70 in group 15, expected a group from 1 to 14; write for example 70 = 1"),

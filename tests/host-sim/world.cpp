@@ -35,7 +35,7 @@ timeout = 0.101
 status = "far-ok"
 pins = { far = 0, lamp = 0 }
 [rungctl]
-permissions = ["set", "force", "reload", "start", "stop", "reset", "profile", "serve"]
+permissions = ["set", "force", "reload", "start", "stop", "reset", "profile", "serve", "acknowledge"]
 protected = ["OTHER"]
 )";
 constexpr const char* kRetained = "/disk/retained";

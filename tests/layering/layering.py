@@ -64,6 +64,7 @@ FOREIGN = {
     "fmt/": ("ir", "frontend", "codegen", "compiler", "machine", "sim", "tools"),
     "nlohmann/": ("ir/support", "codegen", "compiler", "machine", "sim/plugin", "tools"),
     "CLI/": ("machine/command-line",),
+    "ncurses.h": ("machine/rungctl",),
     "expat.h": ("machine/host",),
     "modbus.h": ("machine/io/connections",),
     "modbus/": ("machine/io/connections",),

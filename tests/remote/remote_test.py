@@ -692,7 +692,7 @@ class FullDisk(Host):
     build_options = ("--profile",)
     commands = {"hosts": [], "status": [], "messages": [], "get": ["X0.0"], "watch": ["X0.0"], "trace": ["X0.0", "-o", "{home}/full.vcd", "--for", "0.1"],
                 "set": ["D8:2", "1"], "event": ["reset"], "force": ["D8:2", "1"], "unforce": ["--all"], "forced": [], "reload": ["{program}"],
-                "rollback": [], "stop": [], "start": [], "reset": [], "map": [], "profile": [], "serve": [], "completion": ["bash"], "help": []}
+                "rollback": [], "stop": [], "start": [], "reset": [], "map": [], "profile": [], "serve": [], "log": [], "top": ["--once"], "verify": ["{program}"], "completion": ["bash"], "help": []}
 
     def start(self):
         self.host = subprocess.Popen([BIN / "rung-run", self.program, self.home / "plc.map", "--name", "plc", "--simulate"],
@@ -811,7 +811,7 @@ class History(Host):
 
     def test_a_host_that_is_killed(self):
         self.show("X0.4", 1)
-        path = self.home / "kept.messages"
+        path = self.home / "kept.log"
         self.wait(lambda: path.exists() and b"message 4" in path.read_bytes())
         self.host.kill()
         self.host.wait()
@@ -824,13 +824,13 @@ class History(Host):
                                                             r"\S+ \S+ - on now    message 4\n$")
 
     def test_a_place_that_cannot_be_written(self):
-        path = self.home / "kept.messages"
+        path = self.home / "kept.log"
         self.end()
         path.unlink(missing_ok=True)
         path.mkdir()
         self.begin_again()
         self.show("X0.4", 1)
-        self.wait(lambda: "the history of messages is not kept: cannot read" in self.ctl("messages"))
+        self.wait(lambda: "the log is not kept on disk: cannot read" in self.ctl("messages"))
         self.assertIn("message 4\n", self.ctl("messages"))
         self.assertIn("\nrunning: ", self.ctl("status"))
         self.end()
@@ -958,6 +958,10 @@ class Rights(Host):
         self.assertEqual(self.ctl("get", "D8:2"), "D8:2 = 0\n")
         self.ctl("map")
         self.ctl("messages")
+        self.assertIn('"acknowledge" is not allowed here', self.ctl("messages", "--acknowledge", status=WRONG))
+        self.assertIn("started with the program stuck", self.ctl("log"))
+        self.ctl("verify", self.program)
+        self.ctl("top", "--once")
         self.ctl("forced")
         made, lines = self.connect()
         lines.readline()
@@ -1203,7 +1207,10 @@ class Protocol(Host):
                             ('{"do":"messages","follow":1}', 'found no true or false for "follow", expected one of them'),
                             ('{"do":"reload","program":"x.so"}', "found the path x.so, expected an absolute one"),
                             ('{"do":"profile","top":0}', 'found 0 for "top", expected a number from 1 to 10000'),
-                            ('{"do":"profile","by":5}', 'found 5 for "by", expected "time" or "longest"')):
+                            ('{"do":"profile","by":5}', 'found 5 for "by", expected "time" or "longest"'),
+                            ('{"do":"rungs","first":-1}', 'found -1 for "first", expected a number up to 5'),
+                            ('{"do":"rungs","first":6}', 'found 6 for "first", expected a number up to 5'),
+                            ('{"do":"log","follow":"yes"}', 'found no true or false for "follow", expected one of them')):
             answer = self.ask(connection, text)
             self.assertEqual((answer["ok"], answer["error"]), (False, error), text)
         answer = self.ask(connection, '{"do":"status","id":[1,"a"]}')
@@ -1230,6 +1237,7 @@ class Protocol(Host):
                 '{"do":"unforce","all":true}', '{"do":"reload","program":"/dev/zero","yes":true}', '{"do":"messages"}',
                 '{"do":"map"}', '{"do":"profile","top":5,"by":"longest"}', '{"do":"clear-profile"}', '{"do":"compile"}', '{"do":"compiled"}',
                 '{"do":"sources","first":true,"piece":"cnVuZw=="}', '{"do":"reload","compiled":true}', '{"do":"shadow","program":"/x","scans":5}', '{"do":"compared"}',
+                '{"do":"log","follow":true}', '{"do":"program"}', '{"do":"rungs","first":2}', '{"do":"acknowledge"}',
                 '{"do":"set","name":"X0.3","value":1e400}', '{"do":"set","name":"D8:2","value":18446744073709551615}']
         words = sorted({word for line in good for word in re.findall(r'"[^"]*"|-?\d+|true|false|[{}:,\[\]]', line)} | {"null", "1.5", '""'})
         made, lines = self.connect()

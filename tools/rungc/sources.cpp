@@ -100,8 +100,6 @@ size_t rungsOf(const ir::Module& module) {
   return numbers.size();
 }
 
-constexpr size_t kMostWarnings = 10; // that a command shows whose purpose is not to check
-
 // `rungc check` of the same files with the configuration of the command line.
 std::string checkCommand(const SourceOptions& options) {
   std::string command = "rungc check";

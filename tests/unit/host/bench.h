@@ -20,6 +20,12 @@ union PinValue {
   double real = 0;
 };
 
+inline std::vector<std::string> textsOf(const std::vector<Report>& reports) {
+  std::vector<std::string> texts;
+  for (const Report& report : reports) texts.push_back(report.text);
+  return texts;
+}
+
 class Bench {
 public:
   Bench(const rung_program& program, std::string_view text, const std::string& retain = {}, uint32_t catchUp = 0) {

@@ -486,10 +486,10 @@ TEST_F(TechnolBox, AFaultAtTheEndIsReported) {
   Bench e{endless.program(), kTechnolMap};
   ASSERT_THAT(e.errors, IsEmpty());
   e.run(20);
-  std::vector<std::string> reports;
+  std::vector<Report> reports;
   EXPECT_TRUE(e.host->powerOffDone());
   EXPECT_TRUE(e.host->serve(reports));
-  EXPECT_THAT(reports, ElementsAre(StartsWith("the program has stopped: ")));
+  EXPECT_THAT(testing::textsOf(reports), ElementsAre(StartsWith("the program has stopped: ")));
 }
 
 TEST_F(TechnolBox, MessagesHaveTheTextsOfTheControlsFile) {

@@ -28,6 +28,7 @@ using ::testing::IsEmpty;
 using rung::test::allocationsOf;
 using testing::Bench;
 using testing::kMs;
+using testing::textsOf;
 
 TEST(PlcHost, PinsOfAllTypes) {
   Bench b(host::testing::gskProgram(), R"(
@@ -567,10 +568,10 @@ out.count = { type = "u32", name = "D0:2" }
   EXPECT_FALSE(b.host->running());
   EXPECT_EQ(b.host->faultLine(), 42u) << "at once: a host shows it together with the fault";
   EXPECT_FALSE(b["o"].bit);
-  std::vector<std::string> reports;
+  std::vector<Report> reports;
   EXPECT_TRUE(b.host->serve(reports));
   EXPECT_THAT(
-      reports,
+      textsOf(reports),
       ElementsAre("the program has stopped: dead-loop (rung 1 \"all of it\", main.pmc:42); output pins have their safe "
                   "values until pin reset rises"));
   reports.clear();
@@ -579,7 +580,7 @@ out.count = { type = "u32", name = "D0:2" }
   EXPECT_EQ(b.host->step(8 * kMs, true), StepResult::Waiting);
   EXPECT_EQ(b.host->step(8 * kMs, true), StepResult::Waiting); // until it is served
   EXPECT_TRUE(b.host->serve(reports));
-  EXPECT_THAT(reports, ElementsAre("the program has been restarted"));
+  EXPECT_THAT(textsOf(reports), ElementsAre("the program has been restarted"));
   EXPECT_TRUE(b.host->running());
   EXPECT_EQ(b.host->step(8 * kMs, true), StepResult::Ran);
   EXPECT_TRUE(b["o"].bit);
@@ -603,9 +604,10 @@ out.count = { type = "u32", name = "D0:2" }
   EXPECT_EQ(b.host->step(8 * kMs), StepResult::Failed);
   b["bad"].bit = false;
   b.host->step(8 * kMs, true);
-  std::vector<std::string> reports;
+  std::vector<Report> reports;
   EXPECT_TRUE(b.host->serve(reports));
-  EXPECT_THAT(reports, ElementsAre(HasSubstr("dead-loop"), "the program has been restarted")) << "both, at once";
+  EXPECT_THAT(textsOf(reports), ElementsAre(HasSubstr("dead-loop"), "the program has been restarted"))
+      << "both, at once";
   b.scans(1);
   EXPECT_EQ(b["count"].u32, 6u);
 }
@@ -865,7 +867,7 @@ protected:
     EXPECT_EQ(b.host->step(8 * kMs), StepResult::Failed);
     b["bad"].bit = false;
     b.host->step(0, true);
-    std::vector<std::string> reports;
+    std::vector<Report> reports;
     EXPECT_TRUE(b.host->serve(reports));
   }
 

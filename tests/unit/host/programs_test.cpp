@@ -25,6 +25,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using testing::kMs;
+using testing::textsOf;
 
 // Of the scenarios.
 std::string textOf(const std::string& path) {
@@ -127,9 +128,9 @@ TEST_F(TechnolFaults, InModuleInit) {
     EXPECT_FALSE(b["lamp"].bit);
     EXPECT_EQ(b.host->state().scans, 0u);
     b.host->step(kMs, true);
-    std::vector<std::string> reports;
+    std::vector<Report> reports;
     EXPECT_TRUE(b.host->serve(reports));
-    EXPECT_THAT(reports, ElementsAre(HasSubstr("halt-status 2"), "the program has been restarted"));
+    EXPECT_THAT(textsOf(reports), ElementsAre(HasSubstr("halt-status 2"), "the program has been restarted"));
   }
 }
 

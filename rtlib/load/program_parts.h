@@ -1,0 +1,21 @@
+// The parts of a program besides its rungs, each as a hash: two programs with equal parts and rungs do the same.
+#pragma once
+#include <cstdint>
+
+#include "rung/program.h"
+
+namespace rung::runtime {
+
+struct ProgramParts {
+  uint64_t memory = 0;   // layout_hash
+  uint64_t names = 0;    // symbols with their places, and constants with their values
+  uint64_t contents = 0; // initial contents of the memory
+  uint64_t messages = 0; // texts
+  uint64_t schedule = 0; // tasks, steps and copies
+  bool operator==(const ProgramParts&) const = default;
+};
+
+// The program has passed checkProgram.
+ProgramParts partsOf(const rung_program& program);
+
+} // namespace rung::runtime

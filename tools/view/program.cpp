@@ -127,6 +127,7 @@ private:
   Link onTarget(const frontend::TargetUse& target, uint32_t row) override;
   void beginModule(const frontend::ladder::Module& module, std::string_view remark, const Place& place);
   void titleFromSection(Block& block, const frontend::ladder::Module& module);
+  void titleFromSymbol(Block& block, std::string_view subprogram) const;
   void splitUses();
   CrossReference readersOf(uint32_t entry) const;
   CrossReference writersOf(uint32_t entry, std::string_view lead, uint32_t without, size_t most) const;
@@ -312,6 +313,9 @@ std::string_view withoutName(std::string_view title, std::string_view name) {
   return !said.empty() && whole.ends_with(said) ? text::trimmed(title.substr(colon + 1)) : title;
 }
 
+// A drawing does not have the ends of levels and subprograms: "END OF P1" above SPE comes before the next subprogram.
+bool isOfEnd(std::string_view comment) { return text::equalsIgnoringCase(comment.substr(0, comment.find(' ')), "END"); }
+
 // The section just before a module, or the last line of comment before a subprogram of networks, becomes its title.
 // That section is not listed separately then. Comments before a level describe the program.
 void Reader::titleFromSection(Block& block, const frontend::ladder::Module& module) {
@@ -323,8 +327,18 @@ void Reader::titleFromSection(Block& block, const frontend::ladder::Module& modu
     program_.blocks.pop_back();
   } else if (before.kind == Block::Kind::Comment && language_ != nullptr && module.name.size() == 2) {
     const std::string_view line = std::string_view(before.text).substr(before.text.find_last_of('\n') + 1);
-    if (line.size() <= kTitle) block.title = withoutName(line, block.text);
+    if (line.size() <= kTitle && !isOfEnd(line)) block.title = withoutName(line, block.text);
   }
+}
+
+void Reader::titleFromSymbol(Block& block, std::string_view subprogram) const {
+  for (const LadderFile& file : files_)
+    for (const Declaration& declaration : file.declarations)
+      if (declaration.kind == DeclarationKind::Symbol && text::equalsIgnoringCase(declaration.value.text, subprogram)) {
+        block.title = declaration.name.text;
+        if (block.comment.empty()) block.comment = withoutAllowances(declaration.comment);
+        return;
+      }
 }
 
 void Reader::beginModule(const frontend::ladder::Module& module, std::string_view remark, const Place& place) {
@@ -336,6 +350,7 @@ void Reader::beginModule(const frontend::ladder::Module& module, std::string_vie
     block.text = "Module " + name;
   } else if (const frontend::TargetUse* subprogram = names_.targetAt(module.name.back())) {
     block.text = fmt::format("Subprogram {}", module.name.back().text);
+    if (block.title.empty()) titleFromSymbol(block, module.name.back().text);
     subprograms_.emplace_back(program_.blocks.size(), targets_.idOf(*subprogram));
   } else if (const auto level = language_->findLevel(name)) {
     block.text = fmt::format("Level {}", *level + 1);

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "frontend/chart/chart.h"
 #include "frontend/sema/analysis.h"
 #include "frontend/sema/foreign_word.h"
 #include "frontend/table/instruction.h"
@@ -59,6 +60,8 @@ public:
   virtual const Analysis& analysis() const = 0;
   // Nothing for a program that does not consist of networks.
   virtual std::optional<NetworkSource> networks() const { return std::nullopt; }
+  // The program as drawings, for a dialect without ladder text; `built` is what build() gave.
+  virtual std::optional<chart::Program> charts(const ir::Module& /*built*/) const { return std::nullopt; }
   // May be called once, for a program without errors: a module that passes the verifier. Null if building it finds an
   // error, which is reported.
   virtual std::unique_ptr<ir::Module> build() = 0;

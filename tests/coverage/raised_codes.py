@@ -50,7 +50,6 @@ COMMANDS = {
     "drawing-too-large": ({"a.pmc": "FUNC 0\nLD R0.0\n" + "AND R0.1\nOR R0.2\n" * 5900 + "OUT R1.0\nFUNC 1\n"}, "convert a.pmc --to ladder"),
     "no-ladder-text": ({"a.mne": "%@3\nEND1\nEND2\nEND\n%\n%@4\nA0.0 1000 3.5\" DISK\n%\n"}, "convert a.mne --to ladder"),
     "no-conversion": ({"a.lad": LAMP}, "convert a.lad --to list"),
-    "no-drawing": ({"a.plc": "MODULE_MAIN\nMODULE_END\n"}, "view a.plc -o a.svg"),
     "project-syntax": (project(PROJECT + "= 1\n"), "check"),
     "unknown-project-key": (project(PROJECT + 'dialekt = "nct"\n'), "check"),
     "project-value": (project('dialect = 1\nfiles = ["a.lad"]\n'), "check"),

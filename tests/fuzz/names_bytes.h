@@ -45,7 +45,6 @@ inline void nameBytes(const frontend::Dialect& dialect, std::string_view extensi
   std::vector<report::Entry> entries = reference.all();
   report::markOdd(sources, program->analysis(), reference, entries);
   report::reportOddNames(sources, program->analysis(), reference, diagnostics);
-  if (!view::hasDrawing(dialect)) return;
   if (const auto drawn = view::drawnProgram(sources, files, dialect, {}, diagnostics)) view::renderHtml(*drawn);
 }
 

@@ -37,11 +37,11 @@ LAYERS = {
     "ir/core": ("ir/support", "rtlib/abi", "rtlib/text"),
     "ir/interp": ("ir", "rtlib/abi", "rtlib/text", "rtlib/core", "rtlib/load", "rtlib/run"),  # an engine, as codegen/jit is
     **{f"frontend/{folder}": ("frontend/syntax", "frontend/table", "frontend/sema", "frontend/ladder", "frontend/lower", "ir/support", "ir/core",
-                              "rtlib/abi", "rtlib/text", "rtlib/nc") for folder in ("syntax", "table", "sema", "ladder", "lower")},
+                              "rtlib/abi", "rtlib/text", "rtlib/nc") for folder in ("syntax", "table", "sema", "chart", "ladder", "lower")},
     "frontend/network": ("frontend/syntax", "frontend/table", "frontend/sema", "frontend/ladder", "ir/support", "rtlib/nc/signal.h", "rtlib/nc/signals.h", "rtlib/text"),
     "frontend/network/rows": ("frontend", "ir/support", "rtlib/text"),
     "frontend/network/lower": ("frontend", "ir/support", "ir/core", "rtlib/nc/service.h", "rtlib/nc/pmc", "rtlib/nc/config_key.h", "rtlib/abi", "rtlib/text"),
-    **{f"frontend/dialects/{dialect}": ("frontend/syntax", "frontend/table", "frontend/sema", "frontend/lower", "frontend/ladder",
+    **{f"frontend/dialects/{dialect}": ("frontend/syntax", "frontend/table", "frontend/sema", "frontend/chart", "frontend/lower", "frontend/ladder",
                                         "frontend/network", "frontend/network/lower", "frontend/network/rows", "frontend/dialects/dialect.h", "ir/support", "ir/core", "rtlib/abi", "rtlib/text",
                                         "rtlib/nc") for dialect in DIALECTS},
     "machine/host": ("rtlib/abi", "rtlib/text", "rtlib/core/handover.h", "rtlib/load", "rtlib/run", "rtlib/nc", "rtlib/nc/control"),
@@ -84,7 +84,7 @@ INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]+[<"]([^>"]+)[>"]', re.MULTILIN
 NAMESPACES = {
     "rtlib/text": "text", "rtlib/core": "core", "rtlib/nc": "nc", "rtlib/api": "api",
     **{f"rtlib/{folder}": "runtime" for folder in ("load", "run", "change", "retain", "record")},
-    "ir": "ir", "ir/support": "", "frontend": "frontend", "frontend/ladder": "frontend::ladder",
+    "ir": "ir", "ir/support": "", "frontend": "frontend", "frontend/ladder": "frontend::ladder", "frontend/chart": "frontend::chart",
     "frontend/network": "frontend::network",
     **{f"frontend/dialects/{dialect}": f"frontend::{dialect}" for dialect in DIALECTS},
     "codegen": "codegen", "compiler": "compiler",

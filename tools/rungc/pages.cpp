@@ -17,9 +17,8 @@
 namespace rung::rungc {
 namespace {
 
-// A program's page with the results of the overlay: on its drawing, or on its source if its dialect has no drawings.
-// The program is read again from its files. `project`: the title; "": the names of the files. Fails if a file cannot be
-// read, or the program has errors now.
+// A program's page with the results of the overlay on its drawing. The program is read again from its files. `project`:
+// the title; "": the names of the files. Fails if a file cannot be read, or the program has errors now.
 Result<std::string> pageWith(const view::Overlay& overlay, const std::vector<std::string>& files,
                              const frontend::Dialect& dialect, const frontend::CompileOptions& options,
                              const std::string& project) {
@@ -28,12 +27,6 @@ Result<std::string> pageWith(const view::Overlay& overlay, const std::vector<std
   if (!ids.ok()) return ids.failure();
   const std::string changed = fmt::format("{} was changed while its scenarios ran", files.front());
   Diagnostics diagnostics;
-  if (!view::hasDrawing(dialect)) {
-    auto listing = view::listedProgram(sources, ids.value(), dialect, options, diagnostics);
-    if (!listing) return failure(changed);
-    if (!project.empty()) listing->title = project;
-    return view::renderTable(*listing, overlay);
-  }
   auto drawing = view::drawnProgram(sources, ids.value(), dialect, options, diagnostics);
   if (!drawing) return failure(changed);
   if (!project.empty()) drawing->title = project;

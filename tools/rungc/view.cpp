@@ -1,11 +1,10 @@
-// rungc view: draws a ladder program as a page or a picture, or lists another program as a page.
+// rungc view: draws a program as a page or a picture.
 #include <cstdio>
 #include <fmt/format.h>
 #include <memory>
 #include <span>
 
 #include "compiler/dialect_choice.h"
-#include "ir/support/diag/source.h"
 #include "tools/rungc/commands.h"
 #include "tools/scenario/prompt.h"
 #include "tools/view/drawn_program.h"
@@ -45,26 +44,13 @@ std::string drawn(view::Program program, const ViewOptions& options) {
   return isPage(options) ? view::renderHtml(program, pageOf(options)) : view::renderSvg(program);
 }
 
-std::string listed(view::Listing listing, const ViewOptions& options) {
-  if (!options.title.empty()) listing.title = options.title;
-  return view::renderTable(listing, {}, pageOf(options));
-}
-
 // The page or picture; nothing if the program has errors.
 std::optional<std::string> render(SourceManager& sources, std::span<const FileId> files, const ViewOptions& options,
                                   const frontend::CompileOptions& compile, Diagnostics& diagnostics) {
   const frontend::Dialect* dialect = compiler::chooseDialect(sources, files, options.source.dialect, diagnostics);
   if (dialect == nullptr) return std::nullopt;
-  if (view::hasDrawing(*dialect)) {
-    auto program = view::drawnProgram(sources, files, *dialect, compile, diagnostics);
-    return program ? std::optional(drawn(std::move(*program), options)) : std::nullopt;
-  }
-  if (!isPage(options)) {
-    diagnostics.report(diag::NoDrawing, sources.range(files[0], 0, 0)) << dialect->title;
-    return std::nullopt;
-  }
-  auto listing = view::listedProgram(sources, files, *dialect, compile, diagnostics);
-  return listing ? std::optional(listed(std::move(*listing), options)) : std::nullopt;
+  auto program = view::drawnProgram(sources, files, *dialect, compile, diagnostics);
+  return program ? std::optional(drawn(std::move(*program), options)) : std::nullopt;
 }
 
 int run(ViewOptions options) {
@@ -92,7 +78,7 @@ int run(ViewOptions options) {
 } // namespace
 
 void addView(CommandLine& app, int& status) {
-  Command command = app.add("view", "Draw the ladder of a program, as a page or a picture");
+  Command command = app.add("view", "Draw a program, as a page or a picture");
   auto options = std::make_shared<ViewOptions>();
   addSourceOptions(command, options->source);
   command.option("-o,--output", options->out,

@@ -3,8 +3,6 @@
 #include <functional>
 #include <string>
 
-#include "tools/view/drawn_program.h"
-#include "tools/view/overlay.h"
 #include "tools/view/program.h"
 
 namespace rung::view {
@@ -20,9 +18,5 @@ struct PageOptions {
 
 // The page has drawings, names with their uses, and a search.
 std::string renderHtml(const Program& program, const PageOptions& options = {});
-
-// A page in the style of renderHtml: the source by rung, with the uncovered elements of each rung beside it. Without
-// results of runs if the overlay is empty.
-std::string renderTable(const Listing& listing, const Overlay& overlay, const PageOptions& options = {});
 
 } // namespace rung::view

@@ -619,6 +619,9 @@ public:
     for (const Symbol& symbol : picture.symbols) at(symbol.left.y).symbols.push_back(symbol);
     for (const Frame& frame : picture.frames) at(frame.corner.y).frames.push_back(frame);
     for (const Halo& halo : picture.halos) at(halo.corner.y).halos.push_back(halo);
+    for (const Step& step : picture.steps) at(step.corner.y).steps.push_back(step);
+    for (const Line& bar : picture.bars) at(bar.from.y).bars.push_back(bar);
+    for (const Point arrow : picture.arrows) at(arrow.y).arrows.push_back(arrow);
     for (const Text& text : picture.texts) at(text.at.y).texts.push_back(text);
     return std::move(pieces_);
   }

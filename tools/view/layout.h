@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/view/program.h"
 #include "tools/view/sheet.h"
 #include "tools/view/style.h"
 
@@ -49,6 +50,16 @@ struct Halo {
   std::string detail;
 };
 
+// A part of a chart in which a unit may wait.
+struct Step {
+  Point corner;
+  int width = 0;
+  int height = 0;
+  std::string continuation;     // key of the cell that says where the unit continues
+  std::vector<uint32_t> states; // its values here
+  bool waits = false;
+};
+
 enum class Anchor : uint8_t { Start, Middle, End };
 
 struct Text {
@@ -70,13 +81,16 @@ struct Picture {
   int top = 0;   // y of its upper edge: not 0 in a part of a drawing
   int height = 0;
   std::vector<int> breaks; // heights at which a cut crosses only vertical wires, from top to bottom
-  int rail = 0;            // x of the right rail; x of the left one is kLeft
+  int rail = 0;            // x of the right rail; x of the left one is kLeft; 0: there are no rails
   std::vector<Line> wires;
   std::vector<Jump> jumps;
   std::vector<Point> dots; // where three wires meet
   std::vector<Symbol> symbols;
   std::vector<Frame> frames;
   std::vector<Halo> halos;
+  std::vector<Step> steps;
+  std::vector<Line> bars;    // across a line of control: what is waited for
+  std::vector<Point> arrows; // their points, to the right
   std::vector<Text> texts;
 };
 
@@ -88,6 +102,7 @@ inline constexpr int kMargin = 160;    // space for remarks to the right of the 
 int neededRail(const Sheet& sheet);
 // `rail`: desired x of the right rail; it is further to the right if no cut helps.
 Picture layOut(const Sheet& sheet, int rail);
+Picture layOut(const Chart& chart);
 
 // Chooses where to cut a rung that is too wide. Internal to the layout.
 

@@ -50,7 +50,10 @@ void Names::addSignals(const frontend::Dialect& dialect) {
   for (const nc::Signal& signal : dialect.signals()) {
     const bool isBit = signal.type == nc::SignalType::Bit;
     const frontend::NamedPlace named{signal.area, signal.byteOffset * 8 + (isBit ? signal.bit : 0), isBit ? 1u : 8u};
-    if (const auto place = placeOf(named)) byAddress_.try_emplace(textOf(*place), Known{signal.symbol, signal.meaning});
+    const auto place = placeOf(named);
+    if (!place) continue;
+    const auto known = byAddress_.try_emplace(textOf(*place), Known{signal.symbol, signal.meaning}).first;
+    if (known->second.comment.empty() && known->second.name == signal.symbol) known->second.comment = signal.meaning;
   }
 }
 
@@ -101,23 +104,34 @@ Named Names::find(const frontend::Word& operand) {
   return named;
 }
 
+Named Names::find(const frontend::chart::Operand& operand) {
+  const frontend::OperandUse* use = operand.use.place.bits == 0 ? nullptr : &operand.use;
+  const bool isName = operand.name != frontend::kNoDefinition;
+  Named named = lookUp(use, isName ? &analysis_.definitions()[operand.name] : nullptr, operand.text);
+  if (named.address == operand.text) named.address.clear();
+  return named;
+}
+
 Named Names::lookUp(const frontend::Word& operand) {
   if (const auto declared = declared_.find(operand.range.begin); declared != declared_.end())
     return of(analysis_.definitions()[declared->second]);
-  const frontend::OperandUse* use = analysis_.operandAt(operand.range);
+  return lookUp(analysis_.operandAt(operand.range), analysis_.nameAt(operand.range), operand.text);
+}
+
+Named Names::lookUp(const frontend::OperandUse* use, const frontend::Definition* name, std::string_view operand) {
   const auto place = use == nullptr ? std::nullopt : placeOf(use->place);
-  if (!place) {
-    const frontend::Definition* name = analysis_.nameAt(operand.range);
-    return name == nullptr ? Named{} : of(*name);
-  }
+  if (!place) return name == nullptr ? Named{} : of(*name);
   Named named = at(*place);
   if (use->base != frontend::kNoDefinition) {
     named.address = named.key + std::string(use->computed);
-    named.comment = withoutAllowances(analysis_.definitions()[use->base].comment);
+    const frontend::Definition& base = analysis_.definitions()[use->base];
+    const auto known = byAddress_.find(named.key);
+    const bool isOwn = known != byAddress_.end() && known->second.name == base.name;
+    named.comment = withoutAllowances(base.comment.empty() && isOwn ? known->second.comment : base.comment);
   } else if (const auto known = byAddress_.find(named.key); known != byAddress_.end()) {
     named.address = known->second.name;
     named.comment = withoutAllowances(known->second.comment);
-  } else if (isNumber(operand.text) && !isNumber(named.key)) {
+  } else if (isNumber(operand) && !isNumber(named.key)) {
     named.address = named.key; // 0030.12 of NCT is INP000.12
   }
   if (use->computed.empty()) return named;

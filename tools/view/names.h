@@ -32,6 +32,8 @@ public:
 
   // For an operand of the text, or a name in its declaration.
   Named find(const frontend::Word& operand);
+  Named find(const frontend::chart::Operand& operand);
+  Named of(const frontend::Definition& definition);
   // The label or subprogram that the operand names; null if it names none.
   const frontend::TargetUse* targetAt(const frontend::Word& operand) const { return analysis_.targetAt(operand.range); }
   // The value of a constant as declared, or the text itself.
@@ -47,8 +49,8 @@ private:
   std::optional<ir::BitRange> placeOf(const frontend::NamedPlace& place) const;
   std::string textOf(const ir::BitRange& place) const;
   const Named& at(const ir::BitRange& place);
-  Named of(const frontend::Definition& definition);
   Named lookUp(const frontend::Word& operand);
+  Named lookUp(const frontend::OperandUse* use, const frontend::Definition* name, std::string_view operand);
 
   const frontend::Analysis& analysis_;
   const report::CrossReference& reference_;

@@ -28,11 +28,11 @@ public:
     if (figure != nullptr) figure->run = rung.run;
   }
   void add(const ElementOverlay& element) {
-    Cell* cell = cellAt(element.place);
-    if (cell == nullptr) return;
-    cell->seen = seenOf(element);
-    cell->badge = badgeOf(element);
-    cell->detail = element.detail;
+    for (Cell* cell : cellsAt(element.place)) {
+      cell->seen = seenOf(element);
+      cell->badge = badgeOf(element);
+      cell->detail = element.detail;
+    }
   }
 
 private:
@@ -42,17 +42,20 @@ private:
     const auto at = map.find(key);
     return at == map.end() ? nullptr : at->second;
   }
-  Cell* cellAt(const SourcePlace& place) const {
-    if (place.column != 0) return find(cells_, Key{place.file, place.line, place.column});
-    const auto at = cells_.lower_bound(Key{place.file, place.line, 0u});
-    const auto end = cells_.lower_bound(Key{place.file, place.line + 1, 0u});
-    return at != end && std::next(at) == end ? at->second : nullptr;
+  std::vector<Cell*> cellsAt(const SourcePlace& place) const {
+    const auto first = cells_.lower_bound(Key{place.file, place.line, place.column});
+    const auto end = place.column == 0 ? cells_.lower_bound(Key{place.file, place.line + 1, 0u})
+                                       : cells_.upper_bound(Key{place.file, place.line, place.column});
+    std::vector<Cell*> found;
+    for (auto at = first; at != end; ++at) found.push_back(at->second);
+    if (place.column == 0 && found.size() > 1) found.clear();
+    return found;
   }
 
   Program& program_;
   std::unordered_map<uint32_t, Figure*> byNumber_;
   std::map<Key, Figure*> byPlace_;
-  std::map<Key, Cell*> cells_;
+  std::multimap<Key, Cell*> cells_; // an instruction may have several
 };
 
 } // namespace

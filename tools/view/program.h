@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "frontend/chart/chart.h"
 #include "frontend/dialects/dialect.h"
 #include "frontend/ladder/text/ladder_file.h"
 #include "frontend/network/convert/convert.h"
@@ -33,24 +34,34 @@ struct Run {
   std::string detail;
 };
 
+// A unit that waits, as a chart of its parts.
+struct Chart {
+  frontend::chart::Sequence sequence;
+  std::vector<bool> waits; // by part: a run has stopped there
+};
+
+inline constexpr uint32_t kNoChart = UINT32_MAX;
+
 struct Figure {
   uint32_t number = 0; // from 1
   std::string title;   // the rung's comment
   std::vector<std::string> comments;
   Place place;
+  std::vector<std::string> labels;
   Sheet sheet;
+  uint32_t chart = kNoChart; // in Program::charts: drawn instead of the sheet
   Run run;
 };
 
 struct Block {
-  enum class Kind : uint8_t { File, Module, Section, Comment, Rung };
+  enum class Kind : uint8_t { File, Module, Section, Comment, Rung, Chart };
   Kind kind = Kind::Comment;
   std::string text;    // of a Comment: its lines
   std::string comment; // the comment after the statement
   std::string title;   // of a Module: the title given by the section or comment before it
   CrossReference callers;
   Place place;
-  uint32_t figure = 0; // of a Rung: index in Program::figures
+  uint32_t figure = 0; // of a Rung: index in Program::figures; of a Chart without a rung: in Program::charts
 };
 
 struct Use {
@@ -91,6 +102,7 @@ struct Program {
   std::vector<SourceFile> files;
   std::vector<Block> blocks;
   std::vector<Figure> figures;
+  std::vector<Chart> charts;
   std::vector<NameTable> tables;
   RunSummary runs;
 };
@@ -114,6 +126,8 @@ struct Input {
 };
 
 Program readProgram(const SourceManager& sources, const Input& input);
+// A program of charts: of `input`, `dialect`, `analysis`, `reference` and `authors` are used.
+Program readCharts(const SourceManager& sources, const Input& input, frontend::chart::Program charts);
 
 // The contents of a program as a list: files, modules and sections with their rungs.
 

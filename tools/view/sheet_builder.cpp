@@ -49,7 +49,7 @@ public:
     joinMarks();
     cellOf_.assign(drawing_.elements.size(), kNone);
     for (uint32_t line = 0; line < drawing_.lines.size(); ++line) addRow(line);
-    findClosing();
+    findClosing(sheet_);
     return std::move(sheet_);
   }
 
@@ -74,7 +74,6 @@ private:
   void addContact(Cell& cell, const Element& element);
   void addBox(Cell& cell, const Element& element);
   Operand operandOf(const frontend::Word& word, const frontend::OperandInfo* info, uint32_t row);
-  void findClosing();
   std::string remarkOf(uint32_t line) const;
   std::string_view messageOf(const std::string& number) const {
     const auto at = context_.texts.find(number);
@@ -261,13 +260,12 @@ void SheetDrawing::addBox(Cell& cell, const Element& element) {
   }
 }
 
-// A coil or box with nothing to its right in any of its rows leads to the right rail.
-void SheetDrawing::findClosing() {
-  std::vector<uint32_t> lastIn(sheet_.cells.size(), 0);
-  for (const Row& row : sheet_.rows)
+void findClosing(Sheet& sheet) {
+  std::vector<uint32_t> lastIn(sheet.cells.size(), 0);
+  for (const Row& row : sheet.rows)
     if (!row.stops.empty()) ++lastIn[row.stops.back().cell];
-  for (uint32_t i = 0; i < sheet_.cells.size(); ++i) {
-    Cell& cell = sheet_.cells[i];
+  for (uint32_t i = 0; i < sheet.cells.size(); ++i) {
+    Cell& cell = sheet.cells[i];
     const bool closes = cell.kind == Cell::Kind::Coil || cell.kind == Cell::Kind::Box;
     cell.closing = closes && lastIn[i] == cell.lastRow - cell.firstRow + 1;
   }

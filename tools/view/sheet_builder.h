@@ -43,5 +43,10 @@ struct SheetContext {
 std::string messageKey(std::string_view number);
 
 Sheet buildSheet(const SheetContext& context, const frontend::ladder::Drawing& drawing, SheetListener& listener);
+// The networks of a chart's rung, one below the other; `file` is that of its positions.
+Sheet buildSheet(const frontend::chart::Rung& rung, uint32_t file, Names& names, SheetListener& listener);
+
+// A coil or box with nothing to its right in any of its rows leads to the right rail.
+void findClosing(Sheet& sheet);
 
 } // namespace rung::view

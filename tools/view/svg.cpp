@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 
+#include <fmt/ranges.h>
+
 #include "ir/support/put.h"
 #include "tools/view/overlay.h"
 
@@ -15,10 +17,12 @@ constexpr int kMostRail = 880; // x of the right rail; wider drawings are cut
 constexpr int kIndent = 24;    // indent of rungs below their captions
 
 void appendRails(std::string& out, const Picture& picture) {
+  if (picture.rail == 0) return;
   put(out, R"(<path class="e" d="M{0} {1}v{3}M{2} {1}v{3}"/>)", kLeft, picture.top, picture.rail, picture.height);
 }
 
 void appendWires(std::string& out, const Picture& picture) {
+  if (picture.wires.empty()) return;
   out += "<path class=\"w\" d=\"";
   for (const Line& line : picture.wires) {
     put(out, "M{} {}", line.from.x, line.from.y);
@@ -60,6 +64,24 @@ void appendFrames(std::string& out, const Picture& picture) {
     put(out, R"(<path class="b" d="M{} {}h{}v{}h-{}z"/>)", frame.corner.x, frame.corner.y, frame.width, frame.height,
         frame.width);
   }
+}
+
+void appendSteps(std::string& out, const Picture& picture) {
+  for (const Step& step : picture.steps)
+    put(out, R"(<rect class="{}" x="{}" y="{}" width="{}" height="{}" data-cell="{}" data-states="{}"/>)",
+        step.waits ? "st at" : "st", step.corner.x, step.corner.y, step.width, step.height, escaped(step.continuation),
+        fmt::join(step.states, " "));
+}
+
+void appendBars(std::string& out, const Picture& picture) {
+  if (picture.bars.empty() && picture.arrows.empty()) return;
+  out += "<path class=\"e\" d=\"";
+  for (const Line& bar : picture.bars) put(out, "M{} {}h{}", bar.from.x, bar.from.y, bar.to.x - bar.from.x);
+  out += "\"/>";
+  if (picture.arrows.empty()) return;
+  out += "<path class=\"v\" d=\"";
+  for (const Point arrow : picture.arrows) put(out, "M{} {}l-8 -4v8z", arrow.x, arrow.y);
+  out += "\"/>";
 }
 
 void appendHalos(std::string& out, const Picture& picture) {
@@ -115,6 +137,7 @@ private:
   void lines(Style style, int x, std::string_view text);
   void block(const Block& block);
   void figure(const Figure& figure);
+  void chart(const Chart& chart);
   void heat(const Run& run, int top);
 
   const Program& program_;
@@ -163,12 +186,12 @@ void Poster::figure(const Figure& figure) {
   y_ = base;
   text(Style::Place, left, place, 2);
   y_ = base;
-  const std::vector<std::string> title = wrap(figure.title, Style::Caption, left - x - 16);
+  const std::vector<std::string> title = wrap(captionOf(figure), Style::Caption, left - x - 16);
   for (const std::string& line : title) text(Style::Caption, x, line, 0);
   if (title.empty()) y_ = base + static_cast<int>(infoOf(Style::Caption).size) + 3;
   lines(Style::Badge, x, labelOf(figure.run));
   for (const std::string& comment : figure.comments) lines(Style::Comment, x, comment);
-  const Picture picture = layOut(figure.sheet, rail_);
+  const Picture picture = pictureOf(program_, figure, rail_);
   y_ += 4;
   put(body_, "<g id=\"r{}\" transform=\"translate(0 {})\"><title>", figure.number, y_);
   appendEscaped(body_, nameOf(figure));
@@ -177,6 +200,17 @@ void Poster::figure(const Figure& figure) {
   body_ += "</g>\n";
   y_ += picture.height;
   heat(figure.run, base);
+  width_ = std::max(width_, picture.width);
+}
+
+// Of a module, which has no rung for it.
+void Poster::chart(const Chart& chart) {
+  const Picture picture = layOut(chart);
+  y_ += 12;
+  put(body_, "<g transform=\"translate(0 {})\"><title>{}</title>", y_, escaped(chart.sequence.name));
+  appendPicture(body_, picture, false);
+  body_ += "</g>\n";
+  y_ += picture.height;
   width_ = std::max(width_, picture.width);
 }
 
@@ -189,6 +223,7 @@ void Poster::block(const Block& block) {
   case Block::Kind::Section: text(Style::Section, 8, block.text, 22); break;
   case Block::Kind::Comment: y_ += 12; return lines(Style::Comment, 8, block.text);
   case Block::Kind::Rung: return figure(program_.figures[block.figure]);
+  case Block::Kind::Chart: return chart(program_.charts[block.figure]);
   }
   lines(Style::Comment, 8, block.comment);
 }
@@ -229,8 +264,10 @@ std::string escaped(std::string_view text) {
 }
 
 void appendPicture(std::string& out, const Picture& picture, bool onPage) {
+  appendSteps(out, picture);
   appendFrames(out, picture);
   appendWires(out, picture);
+  appendBars(out, picture);
   appendSymbols(out, picture);
   appendRails(out, picture);
   appendHalos(out, picture);
@@ -262,8 +299,19 @@ int commonRail(const Program& program) {
   return std::min(rail, kMostRail);
 }
 
+std::string captionOf(const Figure& figure) {
+  std::string caption;
+  for (const std::string& label : figure.labels) caption += label + ": ";
+  return caption + figure.title;
+}
+
 std::string nameOf(const Figure& figure) {
-  return fmt::format("Rung {}", figure.number) + (figure.title.empty() ? "" : ": " + figure.title);
+  const std::string caption = captionOf(figure);
+  return fmt::format("Rung {}", figure.number) + (caption.empty() ? "" : ": " + caption);
+}
+
+Picture pictureOf(const Program& program, const Figure& figure, int rail) {
+  return figure.chart == kNoChart ? layOut(figure.sheet, rail) : layOut(program.charts[figure.chart]);
 }
 
 std::string textOf(const Program& program, const Place& place) {

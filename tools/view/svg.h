@@ -19,6 +19,10 @@ std::string pictureStyle(bool onPage);
 
 // The x of the right rail for all rungs that can be cut to it.
 int commonRail(const Program& program);
+// The labels and the title of a rung: "NO_TOOL: nothing to change".
+std::string captionOf(const Figure& figure);
+// Its drawing, at a right rail of this x or further to the right.
+Picture pictureOf(const Program& program, const Figure& figure, int rail);
 // Such as "Rung 3: start/stop latch".
 std::string nameOf(const Figure& figure);
 // Such as "main.lad:12"; "" if there is no position.

@@ -5,6 +5,7 @@
 
 #include "frontend/dialects/technol/check/analysis.h"
 #include "frontend/dialects/technol/check/check_program.h"
+#include "frontend/dialects/technol/draw/charts.h"
 #include "frontend/dialects/technol/format.h"
 #include "frontend/dialects/technol/lower/assemble.h"
 #include "frontend/dialects/technol/read/reader.h"
@@ -65,7 +66,12 @@ public:
     addTasks(declarations_, lowered, walk.emitter(), period_);
     addSymbols(*typed_, *module, options_.given != nullptr);
     numberRungs(source_, *module);
+    trace_ = walk.takeTrace();
     return module;
+  }
+
+  std::optional<chart::Program> charts(const ir::Module& built) const override {
+    return chartsOf(*typed_, analysis_, trace_, built);
   }
 
 private:
@@ -77,6 +83,7 @@ private:
   uint32_t period_ = kDefaultPeriodUs;
   std::optional<TypedProgram> typed_;
   Analysis analysis_;
+  Trace trace_;
 };
 
 std::unique_ptr<CheckedProgram> check(SourceManager& sources, std::span<const FileId> files,

@@ -53,7 +53,6 @@ void expectRuns(Golden& golden) {
   lay(overlay, drawn->program);
   golden.expect("runs.svg", renderSvg(drawn->program));
   golden.expect("runs.html", renderHtml(drawn->program));
-  golden.expect("table.html", renderTable({"A table", "NCT", rowsOf(*drawn->module), {}}, overlay));
 }
 
 TEST(ViewGolden, All) {

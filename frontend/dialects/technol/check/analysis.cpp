@@ -56,11 +56,10 @@ Definition definitionOf(const SourceManager& sources, const Symbol& symbol) {
   return definition;
 }
 
-// Records a label or procedure, which is also a place in the program; it has the number of its symbol.
-void addTarget(const Symbol& symbol, uint32_t number, SourceRange range, bool defines, Analysis& analysis) {
-  const bool isLabel = symbol.kind == SymbolKind::Label;
-  if (range.valid() && (isLabel || symbol.kind == SymbolKind::Procedure))
-    analysis.use({.range = range, .scope = isLabel ? "label" : "procedure", .number = number, .defines = defines});
+// Records a label or procedure, which is also a place in the program.
+void addTarget(const Symbols& symbols, uint32_t number, SourceRange range, bool defines, Analysis& analysis) {
+  const TargetUse target = targetOf(symbols, number, range, defines);
+  if (range.valid() && !target.scope.empty()) analysis.use(target);
 }
 
 // Memory of an operand that names an address: a bit, or the width of its type or variable.
@@ -83,35 +82,44 @@ bool isWiderWrite(const Operand& operand) {
   return operand.form == Operand::Form::Cell && operand.prefixed && operand.access != Access::Read;
 }
 
-void addOperand(const TypedProgram& program, const Operand& operand, bool isSet, Analysis& analysis) {
+} // namespace
+
+OperandUse useOf(const TypedProgram& program, const Operand& operand) {
   const NamedPlace place = placeOf(operand);
-  if (place.bits == 0) return;
+  if (place.bits == 0) return {};
   const std::span<const NameUse> names = program.namesOf(operand);
-  analysis.use({.range = operand.range,
-                .base = names.empty() ? kNoDefinition : names.front().definition,
-                .place = place,
-                .computed = operand.indexed ? "[BX]" : "",
-                .access = operand.access,
-                .isVariable = isWiderWrite(operand),
-                .isSet = isSet});
+  return {.range = operand.range,
+          .base = names.empty() ? kNoDefinition : names.front().definition,
+          .place = place,
+          .computed = operand.indexed ? "[BX]" : "",
+          .access = operand.access,
+          .isVariable = isWiderWrite(operand)};
 }
 
-} // namespace
+// It has the number of its symbol.
+TargetUse targetOf(const Symbols& symbols, uint32_t symbol, SourceRange range, bool defines) {
+  const bool isLabel = symbols[symbol].kind == SymbolKind::Label;
+  if (!isLabel && symbols[symbol].kind != SymbolKind::Procedure) return {};
+  return {.range = range, .scope = isLabel ? "label" : "procedure", .number = symbol, .defines = defines};
+}
 
 Analysis analysisOf(const TypedProgram& program) {
   Analysis analysis;
   const Symbols& symbols = program.symbols;
   symbols.addTo(analysis, [&](const Symbol& symbol) { return definitionOf(program.source.sources, symbol); });
   for (uint32_t i = 0; i < symbols.all().size(); ++i)
-    addTarget(symbols[i], i, analysis.definitions()[i].range, true, analysis);
-  for (const NameUse& name : symbols.uses())
-    addTarget(symbols[name.definition], name.definition, name.range, false, analysis);
+    addTarget(symbols, i, analysis.definitions()[i].range, true, analysis);
+  for (const NameUse& name : symbols.uses()) addTarget(symbols, name.definition, name.range, false, analysis);
   for (const Statement& statement : program.source.statements)
     if (statement.row != nullptr) analysis.use(InstructionUse{statement.range(), &statement.row->info});
   for (uint32_t i = 0; i < program.statements.size(); ++i) {
     const std::span<const Operand> operands = program.operandsOf(program.statements[i]);
     const bool isSet = setsBits(program.source.statements[i], operands);
-    for (const Operand& operand : operands) addOperand(program, operand, isSet, analysis);
+    for (const Operand& operand : operands) {
+      OperandUse use = useOf(program, operand);
+      use.isSet = isSet;
+      if (use.place.bits != 0) analysis.use(use);
+    }
   }
   analysis.settle();
   return analysis;

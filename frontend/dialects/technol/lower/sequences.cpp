@@ -37,7 +37,9 @@ void Sequences::begin(Sequence sequence) {
   sequence.routine = out.routine();
   sequence.continuation.points = {"beginning"};
   if (sequence.leave == kNone) sequence.leave = out.newLabel();
-  sequence.dispatch = out.selectLater(loadState(sequence));
+  const ValueId state = loadState(sequence);
+  sequence.dispatchRung = out.openRung();
+  sequence.dispatch = out.selectLater(state);
   sequence.states.push_back(out.newLabel());
   out.bind(sequence.states[0]);
   open_.push_back(std::move(sequence));
@@ -86,6 +88,7 @@ void Sequences::end() {
     kept.cells = std::move(sequence.cells);
     kept.tickets = std::move(sequence.tickets);
   }
+  trace_.push_back({sequence.unit, sequence.continuation.key, sequence.routine, sequence.dispatchRung});
   emitter_.module().continuations.push_back(std::move(sequence.continuation));
   open_.pop_back();
 }

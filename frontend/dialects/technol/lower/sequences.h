@@ -3,6 +3,7 @@
 #pragma once
 
 #include "frontend/dialects/technol/lower/memory.h"
+#include "frontend/dialects/technol/lower/trace.h"
 
 namespace rung::frontend::technol {
 
@@ -10,11 +11,12 @@ namespace rung::frontend::technol {
 struct Sequence {
   UnitId unit;
   ir::RoutineId routine;
-  uint32_t mechanism = kNone;                      // kNone: a module
-  HostCell moduleDone = HostCell::BlockInitDone;   // of a module: set when it has finished
-  ir::Place moduleCont;                            // of a module: its state, i32, for the host
-  uint32_t leave = kNone;                          // label after its end
-  uint32_t dispatch = kNone;                       // handle of the switch at its beginning
+  uint32_t mechanism = kNone;                    // kNone: a module
+  HostCell moduleDone = HostCell::BlockInitDone; // of a module: set when it has finished
+  ir::Place moduleCont;                          // of a module: its state, i32, for the host
+  uint32_t leave = kNone;                        // label after its end
+  uint32_t dispatch = kNone;                     // handle of the switch at its beginning
+  uint32_t dispatchRung = 0;
   std::vector<uint32_t> states;                    // labels by number; 0 is the beginning
   ir::Continuation continuation;                   // has a point for each state
   std::string instruction;                         // key of the current instruction
@@ -50,6 +52,8 @@ public:
   void storeLine(const Sequence& sequence, uint32_t line);
   // The code of MECH_INIT.
   void initialise(uint32_t mechanism);
+  // The units that have ended.
+  std::vector<Trace::Sequence> takeTrace() { return std::move(trace_); }
   // Makes the routines that MECH_INIT calls: they clear the counts of a mechanism.
   void makeResets();
 
@@ -70,6 +74,7 @@ private:
     std::vector<ir::SlotId> tickets;
   };
   std::vector<Kept> mechanisms_;
+  std::vector<Trace::Sequence> trace_;
 };
 
 } // namespace rung::frontend::technol

@@ -21,6 +21,7 @@ Walk::Walk(const TypedProgram& program, ir::Module& module, uint32_t periodUs, i
            ir::GivenNumbers* given)
     : program_(program), source_(program.source), l_(program, module, marks, given),
       start_(l_.emitter.newRoutine("@START")), clocks_(source_, l_.emitter, l_.state, periodUs) {
+  trace_.statements.resize(source_.statements.size());
   l_.emitter.fault(nc::kTechnolRequested); // the control stops the program with this fault (man. l.5361)
 }
 
@@ -32,6 +33,11 @@ LoweredProgram Walk::run() {
   makeStart(source_, l_.emitter, start_, l_.state, clocks_, l_.bitMessages);
   made_.events = makeEvents(source_, l_.emitter, l_.procedures, clocks_);
   return std::move(made_);
+}
+
+Trace Walk::takeTrace() {
+  trace_.sequences = l_.sequences.takeTrace();
+  return std::move(trace_);
 }
 
 // ---- modules --------------------------------------------------------------------------------------------------------
@@ -74,11 +80,19 @@ void Walk::enterPart(const ModulePart& part) {
     l_.r().setDr(l_.b().load(Type::I64, place(HostCell::Dr)));
 }
 
+// Its last rung is that of the line that ends it.
+void Walk::endPart(const ModulePart& part) {
+  Statement end{.pos = part.end.begin, .file = part.file};
+  end.line = part.endLine;
+  beginAt(end);
+  l_.sequences.end();
+}
+
 void Walk::part(const ModulePart& part) {
   enterPart(part);
   if (isSequential(part.kind)) l_.sequences.beginModule(part.kind, part.unit);
   for (uint32_t i = part.firstStatement; i < part.endStatement && i < source_.statements.size(); ++i) statement(i);
-  if (isSequential(part.kind)) l_.sequences.end();
+  if (isSequential(part.kind)) endPart(part);
 }
 
 // ---- statements -----------------------------------------------------------------------------------------------------
@@ -95,6 +109,22 @@ void Walk::statement(uint32_t index) {
   l_.enter(statement, typed);
   if (statement.label != kNone) bindLabels(index);
   l_.sequences.pass(statement);
+  index_ = index;
+  execute(statement, typed);
+  index_ = kNone;
+  const RoutineBuilder& out = l_.emitter.out();
+  Trace::Statement& traced = trace_.statements[index];
+  if (traced.routine == out.routine()) traced.last = std::max(traced.first, out.openRung() - (out.isOpen() ? 0 : 1));
+}
+
+// The open rung is the first of the current statement.
+void Walk::trace() {
+  if (index_ == kNone) return;
+  const RoutineBuilder& out = l_.emitter.out();
+  trace_.statements[index_] = {out.routine(), out.openRung(), out.openRung()};
+}
+
+void Walk::execute(const Statement& statement, const Typed& typed) {
   switch (statement.row->role) {
   case Role::Code: return code(typed);
   case Role::MechBegin: return beginMechanism(statement);
@@ -111,6 +141,7 @@ void Walk::code(const Typed& typed) {
   const Statement& statement = l_.statement();
   beginRungFor(typed);
   l_.emitter.out().statement(sourceOf(source_, statement));
+  trace();
   l_.useStack();
   l_.marking.decision(statement);
   const uint32_t rung = l_.emitter.out().openRung();
@@ -131,6 +162,7 @@ void Walk::beginRungFor(const Typed& typed) {
 void Walk::beginAt(const Statement& statement) {
   l_.emitter.out().cut();
   l_.emitter.out().statement(sourceOf(source_, statement));
+  trace();
 }
 
 void Walk::beginMechanism(const Statement& statement) {

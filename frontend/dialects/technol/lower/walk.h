@@ -28,13 +28,18 @@ public:
 
   LoweredProgram run();
   Emitter& emitter() { return l_.emitter; }
+  // Valid once, after run().
+  Trace takeTrace();
 
 private:
   void module(ModuleKind kind);
   void prologue(ModuleKind kind);
   void part(const ModulePart& part);
   void enterPart(const ModulePart& part);
+  void endPart(const ModulePart& part);
   void statement(uint32_t index);
+  void execute(const Statement& statement, const Typed& typed);
+  void trace();
   void bindLabels(uint32_t index);
   void code(const Typed& typed);
   void beginRungFor(const Typed& typed);
@@ -50,6 +55,8 @@ private:
   Clocks clocks_;
   ModuleKind kind_ = ModuleKind::Main;
   LoweredProgram made_;
+  Trace trace_;
+  uint32_t index_ = kNone; // of the statement that is being lowered
 };
 
 } // namespace rung::frontend::technol

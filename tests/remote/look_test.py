@@ -172,6 +172,31 @@ class Log(Retaining):
         self.wait(lambda: path.read_bytes().count(b"started with") == 2)
         self.assertNotIn(b'{"n":99', path.read_bytes())
 
+    def test_a_host_that_is_killed_again_and_again(self):
+        """Values that rise show what is missing: only what came last before a kill."""
+        path = self.home / "kept.log"
+        value = 0
+        for _ in range(6):
+            made, lines = self.connect()
+            lines.readline()
+            for _ in range(60):
+                value += 1
+                made.sendall(json.dumps({"do": "set", "name": "D8:2", "value": value}).encode() + b"\n")
+                lines.readline()
+            written = value - 20  # at least that many are on disk when it is killed
+            self.wait(lambda: path.exists() and f"to {written}\"".encode() in path.read_bytes())
+            self.host.kill()
+            self.host.wait()
+            made.close()
+            entries = self.entries(path, "-n", "100000")
+            numbers = [entry["n"] for entry in entries]
+            self.assertEqual(numbers, sorted(set(numbers)))
+            seen = [int(entry["text"].split()[-1]) for entry in entries if entry["kind"] == "set"]
+            self.assertEqual(seen, sorted(set(seen)))
+            self.assertGreaterEqual(seen[-1], written)
+            self.begin_again()
+        self.assertEqual(sum("started with" in entry["text"] for entry in self.entries("-n", "100000")), 7)
+
     def test_files_that_are_no_log(self):
         for name in (self.home / "none.log", "/proc/none.log"):
             self.assertIn(f"there is no log {name}", self.ctl("log", name, status=ENVIRONMENT))

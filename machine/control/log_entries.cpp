@@ -80,6 +80,19 @@ std::optional<LogEntry> logEntryOf(std::string_view text) try {
   return std::nullopt;
 }
 
+namespace {
+
+// Cuts a text between two characters of UTF-8.
+void cut(std::string& text) {
+  constexpr std::string_view kCut = "…";
+  if (text.size() <= LogEntries::kMostText) return;
+  size_t end = LogEntries::kMostText - kCut.size();
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;
+  text.replace(end, std::string::npos, kCut);
+}
+
+} // namespace
+
 // ---- all of them ---------------------------------------------------------------------------------------------------
 
 LogEntry* LogEntries::find(uint64_t number) {
@@ -95,6 +108,7 @@ LogEntry* LogEntries::lastOf(const LogEntry& like) {
 }
 
 LogEntry& LogEntries::add(LogEntry entry) {
+  cut(entry.text);
   entry.number = ++last_;
   entries_.push_back(std::move(entry));
   if (entries_.size() > kMost) {

@@ -27,6 +27,8 @@ json Status::greeting() const {
 
 namespace {
 
+constexpr double kNsInUs = 1e3;
+
 json jsonOf(const host::FunctionState& functions, runtime::Clock& clock) {
   json list = json::array();
   for (uint32_t i = 0; i < std::min(functions.count, host::FunctionState::kMost); ++i) {
@@ -60,6 +62,9 @@ json Status::status() {
   out["functions"] = jsonOf(look.functions, plc_.host().clock());
   out["forced"] = plc_.activeForces().size();
   out["us"] = look.state.now_us;
+  if (look.state.worst_ns != 0)
+    out["scan"] = {{"last_us", static_cast<double>(look.state.last_ns) / kNsInUs},
+                   {"longest_us", static_cast<double>(look.state.worst_ns) / kNsInUs}};
   out["stopped"] = (flags & RUNG_STATE_STOPPED) != 0;
   out["unsaved"] = (flags & RUNG_STATE_UNSAVED) != 0;
   out["faulted"] = (flags & RUNG_STATE_FAULTED) != 0;

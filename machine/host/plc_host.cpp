@@ -43,11 +43,13 @@ int32_t readProfile(const rung_instance* plc, Command& command) noexcept {
 } // namespace
 
 PlcHost::PlcHost(const Image& image, File map, const Options& options)
-    : map_(std::move(map)), translation_(translationOf(image.program().dialect)), options_{.size = sizeof options_,
-                                                                                           .user = this,
-                                                                                           .log = &PlcHost::log,
-                                                                                           .request = &PlcHost::request,
-                                                                                           .catch_up = options.catchUp},
+    : map_(std::move(map)), translation_(translationOf(image.program().dialect)),
+      options_{.size = sizeof options_,
+               .flags = options.measure ? uint32_t{RUNG_MEASURE} : 0,
+               .user = this,
+               .log = &PlcHost::log,
+               .request = &PlcHost::request,
+               .catch_up = options.catchUp},
       plc_(options.newInstance ? options.newInstance(image, options_) : Instance(image, &options_)),
       kept_(!options.retain.empty()), reset_(options.reset), pins_(map_.pins), clock_(*options.clock) {
   if (kept_) plc_.keep(options.retain);

@@ -53,6 +53,7 @@ public:
     NewInstance newInstance = {};                    // makes instances; empty: without devices or a simulation
     runtime::Clock* clock = &runtime::systemClock(); // for everything but steps; must outlive the host
     uint32_t catchUp = 0;                            // as in rung_instance_options
+    bool measure = false;                            // times of scans are in `state`
     const char* reset = "pin reset rises";           // how to restart a stopped program, for messages to users
   };
   // Returns null, with the reasons in `errors`, if the map does not fit the program. Throws rung::Error if the program

@@ -210,7 +210,8 @@ bool loadProgram(PlcInstance& c, const Request& request) {
     if (!mapping.paths.empty())
       c.host = host::PlcHost::make(
           *image, std::move(mapping),
-          {.retain = request.retain != nullptr ? request.retain : "", .newInstance = newInstance}, errors, warnings);
+          {.retain = request.retain != nullptr ? request.retain : "", .newInstance = newInstance, .measure = true},
+          errors, warnings);
   } catch (const Error& error) {
     errors.emplace_back(error.what());
   }

@@ -85,10 +85,12 @@ Reached reachTheOnlyOne() {
 
 } // namespace
 
-Client::Client(const std::string& host) : Client(host.empty() ? reachTheOnlyOne() : reach(host)) {}
+Client::Client(const std::string& host, std::chrono::milliseconds patience)
+    : Client(host.empty() ? reachTheOnlyOne() : reach(host), patience) {}
 
-Client::Client(Reached reached) : host_(std::move(reached.host)), connection_(std::move(reached.connection)) {
-  const std::optional<json> first = next(kAnswer);
+Client::Client(Reached reached, std::chrono::milliseconds patience)
+    : host_(std::move(reached.host)), connection_(std::move(reached.connection)) {
+  const std::optional<json> first = next(patience);
   if (!first) throw std::runtime_error("the host " + host_ + " does not answer");
   if (first->contains("error")) throw std::runtime_error((*first)["error"].get<std::string>());
   greeting_ = *first;
@@ -102,6 +104,7 @@ json Client::ask(const json& request, std::chrono::milliseconds patience) {
     if (!line->contains("event")) return *line;
     events_.push_back(*line);
   }
+  if (connection_.ended()) throw std::runtime_error("the host " + host_ + " has ended");
   throw std::runtime_error(interrupted_ ? "interrupted before the host " + host_ + " answered"
                                         : "the host " + host_ + " does not answer");
 }

@@ -20,12 +20,12 @@ struct Reached {
 
 class Client {
 public:
+  static constexpr std::chrono::seconds kAnswer{15};
   // Connects to the host with this name, or to the only host if the name is empty. Throws std::runtime_error if there
-  // is no host, not this one, or more than one, or if it uses another protocol.
-  explicit Client(const std::string& host);
+  // is no host, not this one, or more than one, if it uses another protocol, or if it does not answer for that long.
+  explicit Client(const std::string& host, std::chrono::milliseconds patience = kAnswer);
 
   const nlohmann::json& greeting() const { return greeting_; }
-  static constexpr std::chrono::seconds kAnswer{15};
   // Sends a request and waits for the answer. Throws std::runtime_error if the host has ended, or a signal ends the
   // wait.
   nlohmann::json ask(const nlohmann::json& request, std::chrono::milliseconds patience = kAnswer);
@@ -38,7 +38,7 @@ public:
   control::Connection& connection() { return connection_; }
 
 private:
-  explicit Client(Reached reached);
+  Client(Reached reached, std::chrono::milliseconds patience);
   std::optional<nlohmann::json> next(std::chrono::milliseconds wait);
 
   std::string host_;

@@ -46,15 +46,15 @@ std::vector<Look::Pin> Observer::pinsOf(const json& map, Clock::time_point now) 
 
 Look Observer::look(Client& client, const std::string& by) {
   Look look;
-  look.status = asked(client, {{"do", "status"}});
-  const json profile = client.ask({{"do", "profile"}, {"top", kMostRungs}, {"by", by}});
+  look.status = asked(client, {{"do", "status"}}, kPatience);
+  const json profile = client.ask({{"do", "profile"}, {"top", kMostRungs}, {"by", by}}, kPatience);
   if (profile.value("ok", false) && profile.value("time_ns", 0.0) > 0) look.profile = profile;
-  const json messages = asked(client, {{"do", "messages"}});
+  const json messages = asked(client, {{"do", "messages"}}, kPatience);
   for (const json& entry : messages["entries"])
     if (entry.value("on", false)) look.messages.push_back(entry);
-  const json log = asked(client, {{"do", "log"}});
+  const json log = asked(client, {{"do", "log"}}, kPatience);
   look.log = log["entries"].get<std::vector<json>>();
-  look.pins = pinsOf(asked(client, {{"do", "map"}}), Clock::now());
+  look.pins = pinsOf(asked(client, {{"do", "map"}}, kPatience), Clock::now());
   return look;
 }
 

@@ -31,6 +31,7 @@ struct Look {
 class Observer {
 public:
   static constexpr unsigned kMostRungs = 200;
+  static constexpr std::chrono::seconds kPatience{3}; // for each answer
 
   // Throws std::runtime_error if the host does not answer. `by`: how rungs are sorted, "time" or "longest".
   Look look(Client& client, const std::string& by);

@@ -34,8 +34,11 @@ void addText(Lines& lines, const std::string& text, Style style) {
 
 std::string timesOf(const json& status) {
   const auto clock = status.find("clock");
-  if (clock == status.end())
-    return fmt::format("scan times: LinuxCNC measures them: halcmd show param {}.scan", shown(status["host"]));
+  if (clock == status.end()) {
+    const json scan = status.value("scan", json::object());
+    return fmt::format("scan: last {:.1f} us, longest {:.1f} us", scan.value("last_us", 0.0),
+                       scan.value("longest_us", 0.0));
+  }
   const auto figure = [&](const char* key) { return clock->value(key, 0.0); };
   const json worst = clock->value("worst", json::array());
   return fmt::format("step: last {:.1f} us, mean {:.1f}, 50% {:.1f}, 99% {:.1f}, 99.9% {:.1f}, longest {:.1f}",

@@ -43,7 +43,7 @@ private:
   static constexpr std::chrono::milliseconds kTurn{200}; // so that a signal ends it soon
 
   void connect() {
-    client_ = std::make_unique<Client>(host_);
+    client_ = std::make_unique<Client>(host_, Observer::kPatience);
     host_ = client_->greeting().value("host", host_); // the same one when it is back
   }
   void update() { look_ = observer_.look(*client_, view_.byLongest ? "longest" : "time"); }

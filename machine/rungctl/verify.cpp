@@ -45,39 +45,60 @@ std::pair<std::string, std::string> prefixesOf(const std::string& a, const std::
   return {a.substr(0, a.size() - common), b.substr(0, b.size() - common)};
 }
 
-// Gives the sources the paths that the machine's program has, because they are part of a program: the same files in
-// another folder are the same program.
-void takePathsOf(const std::vector<std::string>& machine, compile::Sources& sources) {
-  if (machine.empty() || sources.files.empty()) return;
-  const auto [to, from] = prefixesOf(machine.front(), sources.files.front());
-  if (to == from || to.size() == machine.front().size()) return; // other files
-  const auto rename = [&](const std::string& path) {
+// The paths of sources here and in the machine's program, which differ in how they begin. Paths are part of a program:
+// the same files in another folder are the same program only under its paths.
+class Paths {
+public:
+  Paths() = default; // the same ones
+  Paths(const std::vector<std::string>& machine, const std::vector<std::string>& here) {
+    if (machine.empty() || here.empty()) return;
+    const auto [there, begin] = prefixesOf(machine.front(), here.front());
+    if (there.size() != machine.front().size()) there_ = there, here_ = begin; // otherwise they are other files
+  }
+
+  std::string ofMachine(const std::string& path) const { return replaced(path, here_, there_); }
+  std::string here(const std::string& path) const { return replaced(path, there_, here_); }
+
+private:
+  // A path that begins with "" is any that does not begin with '/'.
+  static std::string replaced(const std::string& path, const std::string& from, const std::string& to) {
     const bool isOf = from.empty() ? !path.starts_with('/') : path.starts_with(from);
     return isOf ? to + path.substr(from.size()) : path;
-  };
-  for (std::string& file : sources.files) file = rename(file);
-  for (std::string& folder : sources.includePaths) folder = rename(folder);
+  }
+  std::string there_, here_;
+};
+
+void rename(compile::Sources& sources, const Paths& paths) {
+  for (std::string& file : sources.files) file = paths.ofMachine(file);
+  for (std::string& folder : sources.includePaths) folder = paths.ofMachine(folder);
+  for (auto& [key, value] : sources.config)
+    if (sources.texts.contains(value)) value = paths.ofMachine(value);
   std::map<std::string, std::string> texts;
-  for (auto& [path, text] : sources.texts) texts[rename(path)] = std::move(text);
+  for (auto& [path, text] : sources.texts) texts[paths.ofMachine(path)] = std::move(text);
   sources.texts = std::move(texts);
 }
 
-Image compiled(const Words& words, const ProgramTables& machine) {
+// The program compiled from the sources, as the machine's program was.
+ProgramTables compiled(const Words& words, const ProgramTables& machine) {
   rung_compile::Collected collected = rung_compile::collect(words.files, isatty(STDERR_FILENO) != 0);
   if (!collected.sources) throw Unknown(collected.report);
   collected.sources->profile = machine.instrumented;
-  takePathsOf(machine.files, *collected.sources);
+  const Paths paths(machine.files, collected.sources->files);
+  rename(*collected.sources, paths);
   compile::Compilation compilation(compile::packed(*collected.sources));
   if (compilation.wait() != compile::Compilation::State::Compiled) throw Unknown(compilation.report());
-  return Image::ofMemory(compilation.image(), "the program that was compiled");
+  const Image image = Image::ofMemory(compilation.image(), "the program that was compiled");
+  ProgramTables tables = tablesOf(image.program());
+  for (ProgramTables::Rung& rung : tables.rungs) rung.file = paths.here(rung.file);
+  return tables;
 }
 
-Image given(const Words& words, const ProgramTables& machine) {
+ProgramTables given(const Words& words, const ProgramTables& machine) {
   const bool isProgram =
       std::ranges::any_of(words.files, [](const std::string& file) { return file.ends_with(".so"); });
   if (isProgram && words.files.size() > 1)
     throw Unknown("found a compiled program together with other files, expected one compiled program, or sources");
-  return isProgram ? Image(words.files.front()) : compiled(words, machine);
+  return isProgram ? tablesOf(Image(words.files.front()).program()) : compiled(words, machine);
 }
 
 std::string hexOf(uint64_t code) { return text::hexOfNumber(code, sizeof code); }
@@ -104,7 +125,7 @@ std::string elseText(const ProgramTables& machine, const ProgramTables& other) {
 int compare(const Words& words) {
   Client client(words.common.host);
   ProgramTables machine = tablesOf(client);
-  const ProgramTables other = tablesOf(given(words, machine).program());
+  const ProgramTables other = given(words, machine);
   json answer = {{"ok", true},
                  {"equal", machine.code == other.code},
                  {"program", machine.name},

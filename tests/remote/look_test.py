@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """What rungctl tells of a running program: its log, what waits, whether it is the right program, and top:
 look_test.py BIN CLASS"""
+import contextlib
 import json
 import os
 import re
@@ -28,6 +29,16 @@ def free_port():
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
         return probe.getsockname()[1]
+
+
+@contextlib.contextmanager
+def running(words, environment):
+    host = subprocess.Popen(words, env=environment, stderr=subprocess.DEVNULL)
+    try:
+        yield host
+    finally:
+        host.terminate()
+        host.wait(patience())
 
 
 class Retaining(Host):
@@ -160,6 +171,31 @@ class Log(Retaining):
         self.assertEqual(len({entry["n"] for entry in after}), len(after))
         self.wait(lambda: path.read_bytes().count(b"started with") == 2)
         self.assertNotIn(b'{"n":99', path.read_bytes())
+
+    def test_a_host_that_is_killed_again_and_again(self):
+        """Values that rise show what is missing: only what came last before a kill."""
+        path = self.home / "kept.log"
+        value = 0
+        for _ in range(6):
+            made, lines = self.connect()
+            lines.readline()
+            for _ in range(60):
+                value += 1
+                made.sendall(json.dumps({"do": "set", "name": "D8:2", "value": value}).encode() + b"\n")
+                lines.readline()
+            written = value - 20  # at least that many are on disk when it is killed
+            self.wait(lambda: path.exists() and f"to {written}\"".encode() in path.read_bytes())
+            self.host.kill()
+            self.host.wait()
+            made.close()
+            entries = self.entries(path, "-n", "100000")
+            numbers = [entry["n"] for entry in entries]
+            self.assertEqual(numbers, sorted(set(numbers)))
+            seen = [int(entry["text"].split()[-1]) for entry in entries if entry["kind"] == "set"]
+            self.assertEqual(seen, sorted(set(seen)))
+            self.assertGreaterEqual(seen[-1], written)
+            self.begin_again()
+        self.assertEqual(sum("started with" in entry["text"] for entry in self.entries("-n", "100000")), 7)
 
     def test_files_that_are_no_log(self):
         for name in (self.home / "none.log", "/proc/none.log"):
@@ -307,15 +343,13 @@ class Waiting(unittest.TestCase):
         subprocess.run([BIN / "rungc", "build", "-q", project, "-o", self.home / "p.so"], check=True)
         port = free_port()
         (self.home / "p.map").write_text(FUNCTION_MAP.replace("PORT", str(port)))
-        with subprocess.Popen([BIN / "rung-run", self.home / "p.so", self.home / "p.map"], env=self.environment, stderr=subprocess.PIPE, text=True) as host:
+        with running([BIN / "rung-run", self.home / "p.so", self.home / "p.map"], self.environment):
             self.assertTrue(wait_until(lambda: "running: " in self.status()))
             begun = int(time.time())
             self.send(port)
             self.assertTrue(wait_until(lambda: ", longer than the timeout of the mapping file" in self.status()), self.status())
             text = self.status()
             function, = json.loads(self.status("--json"))["functions"]["oldest"]
-            host.terminate()
-            host.communicate(timeout=patience())
         self.assertRegex(text, r"\nM6: not finished by the program for \d+\.\d{3} s, since \d\d:\d\d:\d\d, longer than")
         self.assertEqual((function["function"], function["code"], function["begun"], function["late"]), ("M", 6, True, True))
         self.assertLessEqual(abs(function["since"] - begun), patience())
@@ -467,6 +501,49 @@ class VerifySources(Host):
     def broken(self, folder):
         (folder / "broken.pmc").write_text(PROGRAM.replace("OUT  Y0.0", "OUT  X0.5"))
         return folder / "broken.pmc"
+
+
+class VerifyDialects(unittest.TestCase):
+    """A project of each dialect, in its folder, in another one, and with a change."""
+
+    def verify(self, dialect, source, before, after):
+        with tempfile.TemporaryDirectory() as folder:
+            home = Path(folder)
+            environment = {**os.environ, "RUNG_SOCKETS": str(home / "sockets"), "RUNG_COMPILE": str(BIN / "rung-compile")}
+
+            def ctl(*words):
+                done = subprocess.run([BIN / "rungctl", *words], capture_output=True, text=True, env=environment, timeout=patience())
+                return done.returncode, done.stdout + done.stderr
+
+            subprocess.run([BIN / "rungc", "new", dialect, home / "plc"], check=True, stdout=subprocess.DEVNULL)
+            subprocess.run([BIN / "rungc", "build", "-q", home / "plc", "-o", home / "p.so"], check=True)
+            (home / "p.map").write_text("")
+            with running([BIN / "rung-run", home / "p.so", home / "p.map"], environment):
+                self.assertTrue(wait_until(lambda: ctl("status")[0] == OK))
+                self.assertEqual(ctl("verify", home / "p.so")[0], SAME)
+                self.assertEqual(ctl("verify", home / "plc")[0], SAME, ctl("verify", home / "plc"))
+                shutil.copytree(home / "plc", home / "other/plc")
+                self.assertEqual(ctl("verify", home / "other/plc")[0], SAME, ctl("verify", home / "other/plc"))
+                path = home / "other/plc" / source
+                text = path.read_text()
+                self.assertEqual(text.count(before), 1)
+                path.write_text(text.replace(before, after))
+                status, text = ctl("verify", home / "other/plc")
+            self.assertEqual(status, OTHER, text)
+            self.assertRegex(text, rf"\nchanged rung \d+ .*, {re.escape(str(home / 'other/plc' / source))}:\d+\n")
+            self.assertEqual(len(re.findall(r" rung \d+", text)), 1, text)
+
+    def test_gsk(self):
+        self.verify("gsk", "main.pmc", "LDI  MOTOR_OK\n", "LD   MOTOR_OK\n")
+
+    def test_fanuc(self):
+        self.verify("fanuc", "main.mne", "RD.NOT     MOTOR_OK\n", "RD         MOTOR_OK\n")
+
+    def test_nct(self):
+        self.verify("nct", "main.lad", "|--[/MOTOR_OK]--{MSG", "|--[MOTOR_OK]--{MSG")
+
+    def test_technol(self):
+        self.verify("technol", "pump.plc", "        LA   MOTOR_OK\n", "        LA   -MOTOR_OK\n")
 
 
 class Top(Retaining):

@@ -90,6 +90,17 @@ TEST(LogEntries, AMessageThatSomebodyHasSeen) {
   EXPECT_THAT(log.acknowledge(kBegin + 9), ElementsAre("DOOR")) << "it has come again";
 }
 
+TEST(LogEntries, ALongTextIsCutBetweenCharacters) {
+  LogEntries log;
+  std::string text;
+  while (text.size() < 70'000) text += "\xc5\x99";
+  log.happen({.text = text}, kBegin);
+  EXPECT_EQ(log.entries()[0].text.size(), 1996u + 3);
+  EXPECT_TRUE(log.entries()[0].text.ends_with("\xc5\x99\xe2\x80\xa6"));
+  log.happen({.text = std::string(LogEntries::kMostText, 'x')}, kBegin);
+  EXPECT_EQ(log.entries()[1].text.size(), LogEntries::kMostText);
+}
+
 TEST(LogEntries, ChangesHaveVersions) {
   LogEntries log;
   log.come(kDoor, "DOOR", kBegin, false);

@@ -10,6 +10,7 @@
 #include <fstream>
 #include <iterator>
 #include <memory>
+#include <random>
 #include <string>
 #include <thread>
 #include <vector>
@@ -192,6 +193,37 @@ TEST_F(LogFileTest, ACrashWhileTheFileTurnsOver) {
   log.happen({.text = "two"}, now);
   file.reset();
   EXPECT_THAT(textsOf(path), ElementsAre("one", "two"));
+}
+
+TEST_F(LogFileTest, EveryPlaceOfACrashLeavesTheEntriesBefore) {
+  open();
+  for (int i = 0; i < 5; ++i) log.happen({.kind = LogKind::Set, .text = "set \xc5\x99 " + std::to_string(i)}, now);
+  file.reset();
+  const std::string whole = contents();
+  for (size_t size = 0; size <= whole.size(); ++size) {
+    fs::resize_file(path, size);
+    const LogInFiles read = readLog(path);
+    EXPECT_EQ(read.wrongLines, 0u) << size;
+    EXPECT_EQ(read.entries.size(), static_cast<size_t>(std::count(whole.begin(), whole.begin() + size, '\n'))) << size;
+    std::ofstream(path, std::ios::binary) << whole;
+  }
+}
+
+TEST_F(LogFileTest, DamagedBytesHarmOnlyTheirLines) {
+  open();
+  for (int i = 0; i < 20; ++i) log.happen({.kind = LogKind::Set, .text = "set " + std::to_string(i)}, now);
+  file.reset();
+  const std::string whole = contents();
+  std::mt19937 random(4711); // NOLINT(cert-msc51-cpp): the same each time
+  for (int round = 0; round < 300; ++round) {
+    std::string damaged = whole;
+    const size_t at = random() % whole.size();
+    damaged[at] = static_cast<char>(random());
+    std::ofstream(path, std::ios::binary) << damaged;
+    const LogInFiles read = readLog(path);
+    EXPECT_GE(read.entries.size() + read.wrongLines, 19u) << at;
+    EXPECT_GE(read.entries.size(), 18u) << at; // a line end that is gone harms two
+  }
 }
 
 TEST(ReadLog, AFileThatIsNotThere) {

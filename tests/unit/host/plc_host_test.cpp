@@ -592,6 +592,16 @@ out.count = { type = "u32", name = "D0:2" }
   EXPECT_FALSE(b.host->running());
 }
 
+TEST(PlcHost, MeasuresScansOnRequest) {
+  std::vector<std::string> errors, warnings;
+  const auto host = PlcHost::make(Image::adopt(host::testing::gskProgram()), parseMap("", "m.map", errors),
+                                  {.measure = true}, errors, warnings);
+  ASSERT_NE(host, nullptr);
+  EXPECT_EQ(host->step(8 * kMs), StepResult::Ran);
+  EXPECT_GT(host->state().last_ns, 0);
+  EXPECT_GE(host->state().worst_ns, host->state().last_ns);
+}
+
 TEST_F(BoxRetained, ARestartTakesTheLastWholeScan) {
 
   Bench b(host::testing::gskProgram(), R"(

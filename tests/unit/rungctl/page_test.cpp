@@ -91,7 +91,8 @@ TEST(Page, WithoutCountersItSaysHowToGetThem) {
   look.profile = nullptr;
   EXPECT_THAT(wholeText(look), HasSubstr("rungc build --profile"));
   look.status.erase("clock");
-  EXPECT_THAT(wholeText(look), HasSubstr("halcmd show param plc.scan"));
+  look.status["scan"] = {{"last_us", 12.34}, {"longest_us", 56.78}};
+  EXPECT_THAT(wholeText(look), HasSubstr("\nscan: last 12.3 us, longest 56.8 us\n"));
 }
 
 TEST(Page, TextIsCutBetweenCharacters) {

@@ -81,8 +81,7 @@ struct Part {
 };
 
 struct Sequence {
-  std::string name; // of a mechanism also that of the bit that is 1 while it is active
-  std::string comment;
+  std::string name;         // of a mechanism also that of the bit that is 1 while it is active
   uint32_t rung = 0;        // number of the rung that begins it; 0: it is a module
   std::string continuation; // key of the ir::Continuation that holds its state
   std::vector<Part> parts;  // in the order of the source

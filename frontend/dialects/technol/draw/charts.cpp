@@ -260,7 +260,8 @@ void Charts::begin(const Statement& statement) {
     unitEnded_ = false;
     if (module_ == ModuleKind::Data) return;
     heading(ItemKind::Module, std::string(moduleName(module_)), statement);
-    if (const auto found = modules_.find(statement.unit.index); found != modules_.end())
+    if (const auto found = modules_.find(statement.unit.index);
+        found != modules_.end() && made_.sequences[found->second].parts.size() > 1)
       add(ItemKind::Sequence, {}, {}, statement.line, found->second);
     return;
   case Role::MechBegin: return heading(ItemKind::Section, fmt::format("Mechanism {}", unit.name), statement);

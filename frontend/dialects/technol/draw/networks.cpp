@@ -20,9 +20,7 @@ namespace {
 constexpr std::string_view kExclusive = "=1"; // the mark of a box whose output is its inputs' exclusive or
 
 // Whether it is shown: NIL is, a bare `-` and what is left out are not.
-bool isWritten(const Operand& operand) {
-  return operand.given() || (!operand.tokens.empty() && spell(operand) != "-");
-}
+bool isWritten(const Operand& operand) { return operand.given() || (!operand.tokens.empty() && spell(operand) != "-"); }
 
 class Networks {
 public:
@@ -395,7 +393,21 @@ void addNetworks(const TypedProgram& program, std::span<const uint32_t> statemen
 
 namespace {
 
-std::string inBrackets(std::string text) { return text.find(' ') == std::string::npos ? text : "(" + text + ")"; }
+std::string conditionText(const chart::Rung& rung, uint32_t node);
+
+// Whether one pair of brackets encloses the whole text.
+bool isBracketed(std::string_view text) {
+  int depth = 0;
+  for (size_t i = 0; i < text.size(); ++i) {
+    depth += text[i] == '(' ? 1 : text[i] == ')' ? -1 : 0;
+    if (depth == 0) return i > 0 && i + 1 == text.size();
+  }
+  return false;
+}
+
+std::string inBrackets(std::string text) {
+  return text.find(' ') == std::string::npos || isBracketed(text) ? text : "(" + text + ")";
+}
 
 // What conducts after these parts if `text` does before them.
 std::string seriesText(const chart::Rung& rung, std::span<const uint32_t> parts, std::string text = {}) {
@@ -413,16 +425,6 @@ std::string seriesText(const chart::Rung& rung, std::span<const uint32_t> parts,
     }
   }
   return text;
-}
-
-// Whether one pair of brackets encloses the whole text.
-bool isBracketed(std::string_view text) {
-  int depth = 0;
-  for (size_t i = 0; i < text.size(); ++i) {
-    depth += text[i] == '(' ? 1 : text[i] == ')' ? -1 : 0;
-    if (depth == 0) return i > 0 && i + 1 == text.size();
-  }
-  return false;
 }
 
 std::string outputText(const Node& node) {
@@ -457,8 +459,6 @@ bool contains(const chart::Rung& rung, uint32_t node, uint32_t statement) {
          std::ranges::any_of(one.parts, [&](uint32_t part) { return contains(rung, part, statement); });
 }
 
-} // namespace
-
 std::string conditionText(const chart::Rung& rung, uint32_t node) {
   const Node& one = rung.nodes[node];
   switch (one.kind) {
@@ -476,6 +476,8 @@ std::string conditionText(const chart::Rung& rung, uint32_t node) {
   for (const uint32_t part : one.parts) text.append(text.empty() ? "" : " + ").append(conditionText(rung, part));
   return text;
 }
+
+} // namespace
 
 std::string oppositeOf(std::string condition) {
   const bool single = condition.find(' ') == std::string::npos || isBracketed(condition);

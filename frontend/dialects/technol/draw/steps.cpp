@@ -58,10 +58,7 @@ void Steps::findStatements() {
   for (uint32_t i = 0; i < source_.statements.size(); ++i) {
     const Statement& statement = at(i);
     if (statement.row == nullptr || source_.owner(statement.unit) != from_.unit) continue;
-    if (statement.row->role == Role::MechBegin) {
-      made_.rung = built_.rungs[i];
-      made_.comment = commentAfter(source_, statement);
-    }
+    if (statement.row->role == Role::MechBegin) made_.rung = built_.rungs[i];
     if (built_.trace.statements[i].routine.valid() && statement.row->role != Role::MechBegin) statements_.push_back(i);
   }
 }

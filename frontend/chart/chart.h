@@ -67,6 +67,7 @@ struct Line {
 // Code that control enters at its beginning only.
 struct Part {
   std::vector<uint32_t> states; // values of the continuation that mean that the unit continues here
+  uint32_t first = 0;           // number of the rung that begins it
   std::string label;
   std::string title;
   std::vector<Line> lines;
@@ -80,8 +81,7 @@ struct Part {
 };
 
 struct Sequence {
-  std::string name;
-  std::string comment;
+  std::string name;         // of a mechanism also that of the bit that is 1 while it is active
   uint32_t rung = 0;        // number of the rung that begins it; 0: it is a module
   std::string continuation; // key of the ir::Continuation that holds its state
   std::vector<Part> parts;  // in the order of the source

@@ -50,7 +50,9 @@ void ChartReader::readRung(const frontend::chart::Rung& rung) {
 void ChartReader::readDeclaration(const Item& item) {
   if (item.index == frontend::chart::kNone) return declareComment(item.text);
   const frontend::Definition& definition = input_.analysis->definitions()[item.index];
-  declare(names_.of(definition), definition.name, definition.isConstant(), withoutAllowances(definition.comment));
+  Named named = names_.of(definition);
+  if (named.address == definition.name) named.address.clear();
+  declare(named, definition.name, definition.isConstant(), withoutAllowances(definition.comment));
 }
 
 void ChartReader::read(const Item& item) {

@@ -19,7 +19,8 @@ struct PageHead {
   std::string_view title;
   std::string_view control;
   size_t rungs = 0;
-  std::string style; // CSS rules of this page, after the common ones
+  std::string pictures; // CSS rules of the drawings
+  std::string style;    // CSS rules of this page, after the common ones
 };
 
 // As a value of the CSS property `content`.
@@ -68,7 +69,7 @@ std::string paperRules(const PageHead& head, const PageOptions& options) {
 // On paper every page has the heading and a page number.
 std::string wholePage(const PageHead& head, const PageOptions& options, std::string_view body) {
   const std::string title = escaped(head.title);
-  const std::string style = commonRules() + pictureStyle(true) + paperRules(head, options) + head.style;
+  const std::string style = commonRules() + head.pictures + paperRules(head, options) + head.style;
   std::string facts = fmt::format("<span>{}</span><span>{} rung{}</span>", escaped(head.control), head.rungs,
                                   head.rungs == 1 ? "" : "s");
   if (!options.revision.empty()) put(facts, "<span>Revision {}</span>", escaped(options.revision));
@@ -404,7 +405,8 @@ std::string Page::run() {
   for (size_t first = 0; first < program_.blocks.size();) first = group(first);
   for (size_t i = 0; i < program_.tables.size(); ++i) table(program_.tables[i], i);
   out_ += "</main>\n";
-  return wholePage({program_.title, program_.control, program_.figures.size(), style()}, options_, out_);
+  return wholePage({program_.title, program_.control, program_.figures.size(), pictureStyle(program_, true), style()},
+                   options_, out_);
 }
 
 } // namespace

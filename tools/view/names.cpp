@@ -50,10 +50,8 @@ void Names::addSignals(const frontend::Dialect& dialect) {
   for (const nc::Signal& signal : dialect.signals()) {
     const bool isBit = signal.type == nc::SignalType::Bit;
     const frontend::NamedPlace named{signal.area, signal.byteOffset * 8 + (isBit ? signal.bit : 0), isBit ? 1u : 8u};
-    const auto place = placeOf(named);
-    if (!place) continue;
-    const auto known = byAddress_.try_emplace(textOf(*place), Known{signal.symbol, signal.meaning}).first;
-    if (known->second.comment.empty() && known->second.name == signal.symbol) known->second.comment = signal.meaning;
+    meanings_.try_emplace(signal.symbol, signal.meaning);
+    if (const auto place = placeOf(named)) byAddress_.try_emplace(textOf(*place), Known{signal.symbol, signal.meaning});
   }
 }
 
@@ -125,9 +123,9 @@ Named Names::lookUp(const frontend::OperandUse* use, const frontend::Definition*
   if (use->base != frontend::kNoDefinition) {
     named.address = named.key + std::string(use->computed);
     const frontend::Definition& base = analysis_.definitions()[use->base];
-    const auto known = byAddress_.find(named.key);
-    const bool isOwn = known != byAddress_.end() && known->second.name == base.name;
-    named.comment = withoutAllowances(base.comment.empty() && isOwn ? known->second.comment : base.comment);
+    named.comment = withoutAllowances(base.comment);
+    const auto meaning = base.range.valid() ? meanings_.end() : meanings_.find(base.name);
+    if (named.comment.empty() && meaning != meanings_.end()) named.comment = meaning->second;
   } else if (const auto known = byAddress_.find(named.key); known != byAddress_.end()) {
     named.address = known->second.name;
     named.comment = withoutAllowances(known->second.comment);

@@ -54,9 +54,10 @@ private:
 
   const frontend::Analysis& analysis_;
   const report::CrossReference& reference_;
-  std::map<std::string, Known> byAddress_; // the first name of a place; declared names have precedence
-  std::map<SourcePos, uint32_t> declared_; // position of a name: its definition
-  std::map<std::string, Named> places_;    // looked up before, by address and length
+  std::map<std::string_view, std::string_view> meanings_; // of the control's signals
+  std::map<std::string, Known> byAddress_;                // the first name of a place; declared names have precedence
+  std::map<SourcePos, uint32_t> declared_;                // position of a name: its definition
+  std::map<std::string, Named> places_;                   // looked up before, by address and length
 };
 
 // Targets of jumps and calls: the rungs that begin a subprogram or have a label, and those that lead to them.

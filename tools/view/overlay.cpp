@@ -58,6 +58,15 @@ private:
   std::multimap<Key, Cell*> cells_; // an instruction may have several
 };
 
+void lay(const StepOverlay& step, Program& program) {
+  for (Chart& chart : program.charts) {
+    if (chart.sequence.continuation != step.continuation) continue;
+    for (size_t i = 0; i < chart.waits.size(); ++i)
+      chart.waits[i] =
+          std::ranges::find(chart.sequence.parts[i].states, step.state) != chart.sequence.parts[i].states.end();
+  }
+}
+
 } // namespace
 
 Seen seenOf(const ElementOverlay& element) {
@@ -86,6 +95,7 @@ std::string_view labelOf(const Run& run) {
 
 void lay(const Overlay& overlay, Program& program) {
   program.runs = {overlay.title, overlay.summary, overlay.heat};
+  for (const StepOverlay& step : overlay.steps) lay(step, program);
   Layer layer(program);
   for (const RungOverlay& rung : overlay.rungs) layer.add(rung);
   for (const ElementOverlay& element : overlay.elements) layer.add(element);

@@ -34,12 +34,19 @@ struct ElementOverlay {
   std::string detail;  // text shown at the element
 };
 
+// Where a unit waits: the cell that the program's table of continuations names, and its value.
+struct StepOverlay {
+  std::string continuation; // its key
+  uint32_t state = 0;
+};
+
 struct Overlay {
   std::string title;                // such as "Profile"
   std::vector<std::string> summary; // lines of text
   std::string heat;                 // what the rungs' colours mean: "share of all operations"; empty without colours
   std::vector<RungOverlay> rungs;
   std::vector<ElementOverlay> elements;
+  std::vector<StepOverlay> steps;
 };
 
 // Such as "never closed"; "" if everything was seen.

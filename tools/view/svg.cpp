@@ -238,7 +238,7 @@ std::string Poster::run() {
   put(out,
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" role=\"img\">\n",
       width, height);
-  put(out, "<title>{}</title>\n<style>\n{}</style>\n", escaped(program_.title), pictureStyle(false));
+  put(out, "<title>{}</title>\n<style>\n{}</style>\n", escaped(program_.title), pictureStyle(program_, false));
   put(out, "<rect width=\"{}\" height=\"{}\" fill=\"#fff\"/>\n{}</svg>\n", width, height, body_);
   return out;
 }
@@ -274,7 +274,7 @@ void appendPicture(std::string& out, const Picture& picture, bool onPage) {
   appendTexts(out, picture, onPage);
 }
 
-std::string pictureStyle(bool onPage) {
+std::string pictureStyle(const Program& program, bool onPage) {
   std::array<std::string, kColours> colours;
   std::array<text::Mark, kColours> marks;
   for (size_t i = 0; i < kColours; ++i) {
@@ -283,6 +283,7 @@ std::string pictureStyle(bool onPage) {
     marks[i] = {info.name, colours[i]};
   }
   std::string css = text::filled(text::textOf(pageFiles(), "picture.css"), marks);
+  if (!program.charts.empty()) css += text::filled(text::textOf(pageFiles(), "chart.css"), marks);
   for (size_t i = 0; i < kStyles; ++i) {
     const StyleInfo& info = infoOf(static_cast<Style>(i));
     put(css, ".{} {{ font: {}{}{}px {}; fill: {}; }}\n", info.cssClass, info.italic ? "italic " : "",

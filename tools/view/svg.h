@@ -12,10 +12,10 @@ namespace rung::view {
 void appendEscaped(std::string& out, std::string_view text);
 std::string escaped(std::string_view text);
 
-// Lines and texts of a rung, for a <g> or <svg>. On a page, names link to their rows.
+// Lines and texts of a rung or a chart, for a <g> or <svg>. On a page, names link to their rows.
 void appendPicture(std::string& out, const Picture& picture, bool onPage);
-// The CSS that pictures need; on a page, colours are referred to by name (see style.h).
-std::string pictureStyle(bool onPage);
+// The CSS that the program's pictures need; on a page, colours are referred to by name (see style.h).
+std::string pictureStyle(const Program& program, bool onPage);
 
 // The x of the right rail for all rungs that can be cut to it.
 int commonRail(const Program& program);

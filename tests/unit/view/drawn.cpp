@@ -148,6 +148,7 @@ std::unique_ptr<Drawn> drawProgram(std::unique_ptr<Drawn> drawn, const std::vect
   if (!program) return nullptr;
   drawn->program = std::move(*program);
   drawn->module = dialect.compile(drawn->sources, files, {}, drawn->diagnostics);
+  if (dialect.findBox == nullptr) return drawn;
   FileId first = files[0];
   const auto checked = dialect.check(drawn->sources, files, {}, drawn->diagnostics);
   if (const auto networks = checked->networks())
@@ -179,6 +180,28 @@ std::unique_ptr<Drawn> drawFiles(const std::vector<std::string>& paths) {
 
 std::unique_ptr<Drawn> drawRung(const std::string& drawing) {
   return draw("t.lad", "dialect nct\nmodule MAIN\nrung\n" + drawing);
+}
+
+void expectSameNumbers(const Drawn& drawn) {
+  size_t compared = 0;
+  for (const ir::Routine& routine : drawn.module->routines) {
+    for (const ir::Rung& rung : routine.rungs) {
+      if (rung.number == 0) continue;
+      ASSERT_LE(rung.number, drawn.program.figures.size());
+      const Figure& figure = drawn.program.figures[rung.number - 1];
+      EXPECT_EQ(figure.number, rung.number);
+      EXPECT_EQ(figure.title, rung.title) << "rung " << rung.number;
+      EXPECT_EQ(figure.place.line, rung.begin.line) << "rung " << rung.number;
+      EXPECT_EQ(drawn.module->files[rung.begin.file.index], drawn.program.files[figure.place.file].path)
+          << "rung " << rung.number;
+      ++compared;
+    }
+  }
+  EXPECT_GE(compared, drawn.program.figures.size() * 9 / 10); // all that is run, and most of a machine's program is
+  uint32_t last = 0;
+  for (const Block& block : drawn.program.blocks)
+    if (block.kind == Block::Kind::Rung) EXPECT_EQ(drawn.program.figures[block.figure].number, ++last);
+  EXPECT_EQ(last, drawn.program.figures.size());
 }
 
 std::string wrongTexts(const frontend::ladder::Rung& rung, const Picture& picture) {

@@ -16,7 +16,7 @@ struct Drawn {
   SourceManager sources;
   Diagnostics diagnostics;
   std::unique_ptr<ir::Module> module;
-  std::vector<frontend::ladder::LadderFile> ladders; // as the drawings were read from them
+  std::vector<frontend::ladder::LadderFile> ladders; // as the drawings were read from them; none: of charts
   Program program;
 
   const frontend::ladder::Rung& rung(size_t figure) const { return ladders[0].rungs[figure]; }
@@ -27,6 +27,9 @@ std::unique_ptr<Drawn> draw(const std::string& name, const std::string& text);
 std::unique_ptr<Drawn> drawFiles(const std::vector<std::string>& paths);
 // The drawing as the only rung of module MAIN of an NCT program.
 std::unique_ptr<Drawn> drawRung(const std::string& drawing);
+
+// The rungs of the drawing are those of the module: number, title and place; each is drawn once, in ascending order.
+void expectSameNumbers(const Drawn& drawn);
 
 // Each gives nothing when all is well.
 std::string wrongTexts(const frontend::ladder::Rung& rung, const Picture& picture); // every element and operand once

@@ -56,7 +56,7 @@ void expectRuns(Golden& golden) {
 }
 
 TEST(ViewGolden, All) {
-  Golden golden("tests/golden/view", {".lad", ".mne", ".pmc"});
+  Golden golden("tests/golden/view", {".lad", ".mne", ".pmc", ".plc"});
   expectPrograms(golden);
   expectRuns(golden);
 }

@@ -9,24 +9,6 @@
 namespace rung::view::test {
 namespace {
 
-void expectSameNumbers(const Drawn& drawn) {
-  size_t compared = 0;
-  for (const ir::Routine& routine : drawn.module->routines) {
-    for (const ir::Rung& rung : routine.rungs) {
-      if (rung.number == 0) continue;
-      ASSERT_LE(rung.number, drawn.program.figures.size());
-      const Figure& figure = drawn.program.figures[rung.number - 1];
-      EXPECT_EQ(figure.number, rung.number);
-      EXPECT_EQ(figure.title, rung.title) << "rung " << rung.number;
-      EXPECT_EQ(figure.place.line, rung.begin.line) << "rung " << rung.number;
-      EXPECT_EQ(drawn.module->files[rung.begin.file.index], drawn.program.files[figure.place.file].path)
-          << "rung " << rung.number;
-      ++compared;
-    }
-  }
-  EXPECT_GE(compared, drawn.program.figures.size() * 9 / 10); // all that is run, and most of a machine's program is
-}
-
 std::vector<std::string> filesIn(const std::filesystem::path& folder, std::string_view extension) {
   std::vector<std::string> files;
   for (const auto& entry : std::filesystem::directory_iterator(folder))

@@ -49,8 +49,10 @@ public:
 
 private:
   void numberStatements();
+  void numberStatementsWithoutCode();
   void makeRungs();
   void fill(chart::Rung& rung, std::span<const uint32_t> statements);
+  bool isDrawnElsewhere(const chart::Rung& rung) const;
   void findSymbols();
   void file(uint32_t file);
   void line(uint32_t number);
@@ -97,7 +99,7 @@ private:
   bool unitEnded_ = false; // the next rung needs a heading
 };
 
-// A statement is drawn in the rung that begins at its line, otherwise in the one that it was lowered to.
+// A statement is drawn in the rung that it begins in; one that waits in the rung of its own in which it does so.
 void Charts::numberStatements() {
   for (const ir::Routine& routine : built_.routines)
     for (const ir::Rung& rung : routine.rungs) {
@@ -113,7 +115,23 @@ void Charts::numberStatements() {
     statementsAt_.emplace(LineOfFile(statement.file, statement.line), i);
     if (!at.routine.valid()) continue;
     const auto own = numbers_.find({statement.file, statement.line});
-    rungs_[i] = own != numbers_.end() ? own->second : built_.at(at.routine).rungs[at.first].number;
+    const bool waits = (statement.row->effects & kWaits) != 0 && own != numbers_.end();
+    rungs_[i] = waits ? own->second : built_.at(at.routine).rungs[at.first].number;
+  }
+  numberStatementsWithoutCode();
+}
+
+// They are drawn with the statement before them.
+void Charts::numberStatementsWithoutCode() {
+  uint32_t before = 0;
+  uint32_t file = kNone;
+  for (uint32_t i = 0; i < rungs_.size(); ++i) {
+    const Statement& statement = source_.statements[i];
+    if (std::exchange(file, statement.file) != statement.file) before = 0;
+    if (rungs_[i] != 0)
+      before = rungs_[i];
+    else if (statement.row != nullptr && statement.row->role == Role::NoCode)
+      rungs_[i] = before;
   }
 }
 
@@ -137,6 +155,12 @@ void Charts::findSymbols() {
   }
 }
 
+bool Charts::isDrawnElsewhere(const chart::Rung& rung) const {
+  const auto file = std::ranges::find(source_.files, rung.file, &SourceFile::id) - source_.files.begin();
+  const auto [first, end] = statementsAt_.equal_range({static_cast<uint32_t>(file), rung.line});
+  return std::any_of(first, end, [&](const auto& at) { return rungs_[at.second] != 0; });
+}
+
 // Labels, uses of macros and networks.
 void Charts::fill(chart::Rung& rung, std::span<const uint32_t> statements) {
   std::set<uint32_t> macros; // lines
@@ -156,10 +180,15 @@ void Charts::fill(chart::Rung& rung, std::span<const uint32_t> statements) {
   }
   addNetworks(program_, statements, rung);
   if (!rung.nodes.empty()) return;
-  // The compiler's rung at the end of a module, or the beginning of a mechanism.
+  // The beginning of a mechanism, the end of a module, or what a statement of another rung does after a call.
   const std::string_view line = source_.sources.lineText(rung.file, rung.line);
   const std::string_view code = text::trimmed(line.substr(0, std::min(commentOf(line), line.size())));
-  rung.nodes.push_back({.kind = chart::NodeKind::Box, .title = std::string(code), .line = rung.line, .column = 1});
+  const bool isOther = isDrawnElsewhere(rung);
+  rung.nodes.push_back({.kind = chart::NodeKind::Box,
+                        .title = std::string(code),
+                        .comment = isOther ? "continued after a call" : "",
+                        .line = rung.line,
+                        .column = 1});
   rung.networks.push_back(0);
 }
 
@@ -231,7 +260,8 @@ void Charts::begin(const Statement& statement) {
     unitEnded_ = false;
     if (module_ == ModuleKind::Data) return;
     heading(ItemKind::Module, std::string(moduleName(module_)), statement);
-    if (const auto found = modules_.find(statement.unit.index); found != modules_.end())
+    if (const auto found = modules_.find(statement.unit.index);
+        found != modules_.end() && made_.sequences[found->second].parts.size() > 1)
       add(ItemKind::Sequence, {}, {}, statement.line, found->second);
     return;
   case Role::MechBegin: return heading(ItemKind::Section, fmt::format("Mechanism {}", unit.name), statement);

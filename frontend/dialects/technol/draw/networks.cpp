@@ -17,11 +17,16 @@ using chart::NodeKind;
 
 namespace {
 
+constexpr std::string_view kExclusive = "=1"; // the mark of a box whose output is its inputs' exclusive or
+
+// Whether it is shown: NIL is, a bare `-` and what is left out are not.
+bool isWritten(const Operand& operand) { return operand.given() || (!operand.tokens.empty() && spell(operand) != "-"); }
+
 class Networks {
 public:
   Networks(const TypedProgram& program, chart::Rung& rung) : program_(program), rung_(rung) {}
 
-  void add(uint32_t statement);
+  void add(uint32_t index);
   void finish();
 
 private:
@@ -56,6 +61,7 @@ private:
   void load(NodeId node, bool stores);
   void follow(NodeId node);
   void join(int logic);
+  bool needsRail(NodeId node) const;
   void combine(int logic, NodeId left, NodeId right);
   void output();
   void alone();
@@ -146,11 +152,10 @@ void Networks::addTo(Node& box, bool own) const {
   if (!comment.empty()) box.comment.append(box.comment.empty() ? "" : "; ").append(comment);
   box.text.append(box.text.empty() ? "" : "; ").append(mnemonic);
   std::string_view before = " ";
-  const auto isGiven = [](const Operand& operand) { return operand.given(); };
-  if (!own && std::ranges::none_of(operands(), isGiven)) box.operands.push_back({.label = std::string(mnemonic)});
+  if (!own && std::ranges::none_of(operands(), isWritten)) box.operands.push_back({.label = std::string(mnemonic)});
   for (size_t i = 0; i < operands().size(); ++i) {
     const Operand& operand = operands()[i];
-    if (!operand.given()) continue;
+    if (!isWritten(operand)) continue;
     const bool first = before == " ";
     box.operands.push_back(written(operand, own ? label(i) : first ? mnemonic : ""));
     box.text.append(std::exchange(before, ",")).append(box.operands.back().text);
@@ -170,8 +175,12 @@ void Networks::addData(Node& box) {
 // A box of the current statement, with those before it that have set DR for it.
 uint32_t Networks::box() {
   Node node{.kind = NodeKind::Box, .title = std::string(row().info.mnemonic)};
+  const bool isPlain = data_.size() == 1 && program_.source.statements[data_[0]].row->lower == &lowerLoad;
   addData(node);
   addTo(node, true);
+  // "POCKET EQ TOOL_WANTED" reads better than "LOD POCKET; EQ TOOL_WANTED".
+  if (isPlain && row().lower == &lowerCompare)
+    node.text = node.operands[0].text + " " + node.title + " " + node.operands[1].text;
   return make(std::move(node));
 }
 
@@ -198,7 +207,7 @@ void Networks::load(NodeId node, bool stores) {
   levels_.push_back({node, {}});
 }
 
-// RLO becomes its value behind `node`.
+// RLO becomes its value after `node`.
 void Networks::follow(NodeId node) {
   Level& level = power();
   if (level.outputs.empty())
@@ -207,9 +216,23 @@ void Networks::follow(NodeId node) {
     levels_.push_back({node, {}});
 }
 
+// What leads to the second pin of a box begins at the rail.
+bool Networks::needsRail(NodeId node) const {
+  const Node& one = rung_.nodes[node];
+  if (one.kind == NodeKind::Box && !one.parts.empty()) return true;
+  return std::ranges::any_of(one.parts, [&](NodeId part) { return needsRail(part); });
+}
+
 void Networks::combine(int logic, NodeId left, NodeId right) {
+  if (logic == kAnd && needsRail(right)) {
+    network(combined(NodeKind::Series, right, make({.kind = NodeKind::Coil, .operands = {{.text = "RLO"}}})));
+    right = value("RLO");
+  }
   if (logic == kXor) {
-    const NodeId both = make({.kind = NodeKind::Box, .title = std::string(row().info.mnemonic), .parts = {right}});
+    const NodeId both = make({.kind = NodeKind::Box,
+                              .mark = std::string(kExclusive),
+                              .title = std::string(row().info.mnemonic),
+                              .parts = {right}});
     levels_.push_back({combined(NodeKind::Series, left, both), {}});
     return;
   }
@@ -219,7 +242,11 @@ void Networks::combine(int logic, NodeId left, NodeId right) {
 void Networks::join(int logic) {
   if (!operands().empty() && operands()[0].given()) {
     if (logic == kAnd) return follow(contact(operands()[0], {}));
-    if (logic == kXor) return follow(box());
+    if (logic == kXor) {
+      const NodeId made = box();
+      rung_.nodes[made].mark = kExclusive;
+      return follow(made);
+    }
     const NodeId former = take();
     return combine(logic, former, contact(operands()[0], {}));
   }
@@ -314,13 +341,19 @@ void Networks::closeData() {
   index_ = current;
 }
 
-void Networks::add(uint32_t statement) {
-  index_ = statement;
-  if (row().role == Role::NoCode) return;
-  if (row().role != Role::Code) return network(box());
+void Networks::add(uint32_t index) {
+  index_ = index;
+  if (row().role != Role::Code) {
+    closeData();
+    const uint32_t node = box();
+    if (operands().empty() && statement().tokenCount != 0)
+      rung_.nodes[node].title += " " + spelled(program_.source.operandTokens(statement()));
+    return network(node);
+  }
   if (has(kSetsRlo) && row().lower != &lowerCall) return equation();
   if (has(kReadsRlo)) return output();
-  if (has(kSetsDr | kReadsDr) && !has(kWaits) && row().lower != &lowerCall) return data_.push_back(statement);
+  const bool worksOnDr = has(kSetsDr) || (has(kReadsDr) && row().info.group == "data");
+  if (worksOnDr && !has(kWaits) && row().lower != &lowerCall) return data_.push_back(index);
   alone();
 }
 
@@ -360,17 +393,36 @@ void addNetworks(const TypedProgram& program, std::span<const uint32_t> statemen
 
 namespace {
 
-std::string seriesText(const chart::Rung& rung, std::span<const uint32_t> parts) {
-  std::string text;
+std::string conditionText(const chart::Rung& rung, uint32_t node);
+
+// Whether one pair of brackets encloses the whole text.
+bool isBracketed(std::string_view text) {
+  int depth = 0;
+  for (size_t i = 0; i < text.size(); ++i) {
+    depth += text[i] == '(' ? 1 : text[i] == ')' ? -1 : 0;
+    if (depth == 0) return i > 0 && i + 1 == text.size();
+  }
+  return false;
+}
+
+std::string inBrackets(std::string text) {
+  return text.find(' ') == std::string::npos || isBracketed(text) ? text : "(" + text + ")";
+}
+
+// What conducts after these parts if `text` does before them.
+std::string seriesText(const chart::Rung& rung, std::span<const uint32_t> parts, std::string text = {}) {
   for (const uint32_t part : parts) {
     const Node& one = rung.nodes[part];
-    if (one.mark == "NOT") {
+    if (one.kind == NodeKind::Contact && one.mark == "NOT") {
       text = oppositeOf(std::move(text));
-      continue;
+    } else if (one.kind == NodeKind::Box && one.mark == kExclusive) {
+      const std::string other = one.parts.empty() ? one.operands[0].text : conditionText(rung, one.parts[0]);
+      text = inBrackets(std::move(text)) + " \u2295 " + inBrackets(other);
+    } else {
+      std::string more = conditionText(rung, part);
+      const bool isBranch = one.kind == NodeKind::Parallel && (parts.size() > 1 || !text.empty());
+      text.append(text.empty() ? "" : " \u00B7 ").append(isBranch ? "(" + more + ")" : more);
     }
-    std::string more = conditionText(rung, part);
-    if (one.kind == NodeKind::Parallel && parts.size() > 1) more = "(" + more + ")";
-    text.append(text.empty() ? "" : " \u00B7 ").append(more);
   }
   return text;
 }
@@ -387,9 +439,7 @@ void addOutputs(const chart::Rung& rung, uint32_t node, const std::string& condi
   const Node& one = rung.nodes[node];
   if (one.kind == NodeKind::Series) {
     const std::span parts(one.parts);
-    std::string more = seriesText(rung, parts.first(parts.size() - 1));
-    if (!condition.empty()) more = more.empty() ? condition : condition + " \u00B7 " + more;
-    return addOutputs(rung, parts.back(), more, without, texts);
+    return addOutputs(rung, parts.back(), seriesText(rung, parts.first(parts.size() - 1), condition), without, texts);
   }
   if (one.kind != NodeKind::Outputs) {
     if (one.statement == without) return;
@@ -409,8 +459,6 @@ bool contains(const chart::Rung& rung, uint32_t node, uint32_t statement) {
          std::ranges::any_of(one.parts, [&](uint32_t part) { return contains(rung, part, statement); });
 }
 
-} // namespace
-
 std::string conditionText(const chart::Rung& rung, uint32_t node) {
   const Node& one = rung.nodes[node];
   switch (one.kind) {
@@ -429,8 +477,10 @@ std::string conditionText(const chart::Rung& rung, uint32_t node) {
   return text;
 }
 
+} // namespace
+
 std::string oppositeOf(std::string condition) {
-  const bool single = condition.find(' ') == std::string::npos;
+  const bool single = condition.find(' ') == std::string::npos || isBracketed(condition);
   if (single && condition.starts_with('/')) return condition.substr(1);
   return single ? "/" + condition : "/(" + condition + ")";
 }
@@ -447,8 +497,7 @@ std::string conditionOf(const chart::Rung& rung, uint32_t statement) {
     for (uint32_t node = network; contains(rung, node, statement);) {
       const Node& one = rung.nodes[node];
       if (one.kind == NodeKind::Series) {
-        const std::string more = seriesText(rung, std::span(one.parts).first(one.parts.size() - 1));
-        condition.append(condition.empty() || more.empty() ? "" : " \u00B7 ").append(more);
+        condition = seriesText(rung, std::span(one.parts).first(one.parts.size() - 1), std::move(condition));
         node = one.parts.back();
       } else if (one.kind == NodeKind::Outputs) {
         node = *std::ranges::find_if(one.parts, [&](uint32_t part) { return contains(rung, part, statement); });

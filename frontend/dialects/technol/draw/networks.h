@@ -15,13 +15,14 @@ void addNetworks(const TypedProgram& program, std::span<const uint32_t> statemen
 
 // The comment after a statement's line.
 std::string_view commentAfter(const SourceProgram& program, const Statement& statement);
-// "I_SPD_ZERO + O_CW": what a network is when it conducts, with · for and, + for or, / for not.
-std::string conditionText(const chart::Rung& rung, uint32_t node);
-// The opposite of a condition.
-std::string oppositeOf(std::string condition);
+
+// Networks as text: conditions are names with · for and, + for or, ⊕ for exclusive or, / for not.
+
 // Each output of a network with its condition: "S O_BRAKE if O_CCW". The output of the statement `without` is left out.
 std::vector<std::string> outputTexts(const chart::Rung& rung, uint32_t network, uint32_t without);
-// What leads to the output of the statement in the rung; "" if nothing does.
+// The condition of the statement's output in the rung; "" if it has none.
 std::string conditionOf(const chart::Rung& rung, uint32_t statement);
+// The opposite of a condition.
+std::string oppositeOf(std::string condition);
 
 } // namespace rung::frontend::technol

@@ -44,6 +44,7 @@ private:
   chart::Sequence made_;
   std::vector<uint32_t> statements_;                 // of the unit, in their order
   std::map<uint32_t, std::vector<uint32_t>> states_; // by statement; kNone: the end
+  uint32_t endRung_ = 0;                             // number of the rung at the end of a module
   std::map<uint32_t, uint32_t> partOf_;              // by the statement that begins it
 };
 
@@ -57,10 +58,7 @@ void Steps::findStatements() {
   for (uint32_t i = 0; i < source_.statements.size(); ++i) {
     const Statement& statement = at(i);
     if (statement.row == nullptr || source_.owner(statement.unit) != from_.unit) continue;
-    if (statement.row->role == Role::MechBegin) {
-      made_.rung = built_.rungs[i];
-      made_.comment = commentAfter(source_, statement);
-    }
+    if (statement.row->role == Role::MechBegin) made_.rung = built_.rungs[i];
     if (built_.trace.statements[i].routine.valid() && statement.row->role != Role::MechBegin) statements_.push_back(i);
   }
 }
@@ -84,7 +82,9 @@ void Steps::findStates() {
     while (rungs[rung].number == 0 && rungs[rung].transfer.kind == ir::TransferKind::Goto &&
            !rungs[rung].transfer.cond.valid())
       rung = rungs[rung].transfer.target;
-    states_[statementAt(rung)].push_back(state);
+    const uint32_t statement = statementAt(rung);
+    if (statement == kNone) endRung_ = rungs[rung].number;
+    states_[statement].push_back(state);
   }
 }
 
@@ -92,6 +92,7 @@ void Steps::beginPart(uint32_t index) {
   partOf_[index] = static_cast<uint32_t>(made_.parts.size());
   chart::Part& part = made_.parts.emplace_back();
   if (const auto states = states_.find(index); states != states_.end()) part.states = states->second;
+  part.first = index == kNone ? endRung_ : built_.rungs[index];
   if (index == kNone) {
     part.end = true;
     for (const Label& label : source_.labels)

@@ -157,11 +157,19 @@ namespace {
 
 using LineOfFile = std::pair<uint32_t, uint32_t>;
 
-// First lines of modules and procedures.
+bool hasCode(const SourceProgram& program, const ModulePart& part) {
+  for (uint32_t i = part.firstStatement; i < part.endStatement && i < program.statements.size(); ++i)
+    if (program.statements[i].row != nullptr && program.statements[i].row->role == Role::Code) return true;
+  return false;
+}
+
+// First lines of modules and procedures, last lines of modules without code.
 std::set<LineOfFile> headingsOf(const SourceProgram& program) {
   std::set<LineOfFile> headings;
-  for (const ModulePart& part : program.parts)
+  for (const ModulePart& part : program.parts) {
     headings.emplace(part.file, program.sources.lineCol(program.at(part.unit).begin.begin).line);
+    if (!hasCode(program, part)) headings.emplace(part.file, part.endLine);
+  }
   for (const Statement& statement : program.statements)
     if (statement.row != nullptr && statement.row->role == Role::ProcBegin)
       headings.emplace(statement.file, statement.line);

@@ -2,8 +2,24 @@
 #include "rtlib/record/player.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace rung::runtime {
+
+bool PlayerOwner::force(Instance& instance, std::span<const core::ForcedBits> bits) {
+  instance.endForces();
+  forcing_.reset();
+  if (bits.empty()) return true;
+  auto forcing = std::make_unique<Forcing>(instance.program(), instance.context().engine, bits);
+  if (forcing->needsCode()) {
+    const std::optional<core::Code> code = codeFor(*forcing);
+    if (!code) return false;
+    forcing->setCode(*code);
+  }
+  forcing_ = std::move(forcing);
+  (void)instance.force(*forcing_);
+  return true;
+}
 
 Player::Player(Instance& instance, PlayerOwner& owner)
     : instance_(instance), owner_(owner), written_(writtenBytes(instance.program())) {
@@ -32,12 +48,19 @@ Played Player::play() {
     return Played::Part;
   }
   while (!reader_.atEnd()) {
+    const EventReader here = reader_;
     const Event event = reader_.takeEvent();
     switch (event) {
     case Event::Lost: whole_ = false; return Played::Lost;
     case Event::Anew: whole_ = false; break;
     case Event::State: return playState();
     case Event::Part: return playPart();
+    case Event::Program:
+      if (reader_.takeNumber() == instance_.program().code_hash) break;
+      if (!reader_.good()) return damaged();
+      whole_ = false;
+      reader_ = here;
+      return Played::Other;
     case Event::Repeat:
       repeats_ = reader_.takeNumber();
       if (repeats_ == 0 || !whole_) return damaged();
@@ -169,7 +192,7 @@ bool Player::takeRequest() {
 Played Player::playPart() {
   const uint64_t kind = reader_.takeNumber();
   number_ = reader_.takeNumber32();
-  if (!reader_.good() || kind > static_cast<uint64_t>(PartKind::Halt) || !whole_) return damaged();
+  if (!reader_.good() || kind >= static_cast<uint64_t>(PartKind::PowerOff) || !whole_) return damaged();
   kind_ = static_cast<PartKind>(kind);
   run();
   compareOutcome();
@@ -187,6 +210,7 @@ void Player::run() {
   case PartKind::SliceToFast: instance_.sliceToFast(); break;
   case PartKind::Task: (void)instance_.runTask(number_); break;
   case PartKind::Halt: (void)instance_.halt(number_); break;
+  case PartKind::PowerOff: break; // only where the control runs again
   }
   core::ServiceRequest request;
   while (instance_.services().take(request)) {

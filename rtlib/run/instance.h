@@ -65,8 +65,9 @@ enum class PartKind : uint8_t {
   Slice,
   Fast,
   SliceToFast,
-  Task, // one run of a task
-  Halt, // it stops with a fault
+  Task,     // one run of a task
+  Halt,     // it stops with a fault
+  PowerOff, // its regular power-off begins
 };
 
 // An observer of everything that comes to a program from outside, in its order. It must not change the instance, and

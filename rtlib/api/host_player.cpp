@@ -96,10 +96,10 @@ Played HostPlayer::playState() {
   const std::span<const uint8_t> bytes = reader_.takeBytes(reader_.takeNumber());
   if (!reader_.good() || !inputs_) return damaged();
   if (!instance_->on) (void)rung_instance_power_on(instance_, RUNG_COLD);
+  running().setNeededCopiesOnly(neededOnly_);
   if (whole_) compareState(bytes);
   core::Loader loader(bytes);
   if (loadState(*instance_, loader) != RUNG_OK) return damaged();
-  running().setNeededCopiesOnly(neededOnly_);
   inputs_->know(running().block().data());
   whole_ = true;
   return Played::State;
@@ -149,9 +149,6 @@ bool HostPlayer::takeBefore(Event event) {
     return rung_instance_abort_functions(instance_, reader_.takeNumber32()) == RUNG_OK && reader_.good();
   case Event::Served: return rung_instance_serving(instance_, reader_.takeNumber() != 0) == RUNG_OK;
   case Event::Saved: instance_->control->saved(running()); return true;
-  case Event::Reply:
-    if (const std::optional<core::ServiceReply> reply = takeReply()) return running().services().complete(*reply);
-    return false;
   case Event::Mark: {
     const std::span<const uint8_t> text = reader_.takeBytes(reader_.takeNumber());
     owner_.marked({reinterpret_cast<const char*>(text.data()), text.size()});
@@ -226,6 +223,12 @@ Played HostPlayer::playPart() {
   if (!reader_.good() || kind > static_cast<uint64_t>(PartKind::PowerOff) || !whole_) return damaged();
   kind_ = static_cast<PartKind>(kind);
   otherRequests_ = false;
+  while (isNext(Event::Reply)) {
+    (void)reader_.takeEvent();
+    const std::optional<core::ServiceReply> reply = takeReply();
+    if (!reply || !running().services().complete(*reply)) return damaged();
+  }
+  wasFaulted_ = running().faulted();
   run();
   compareOutcome();
   return reader_.good() && !failed_ ? Played::Part : damaged();
@@ -261,8 +264,9 @@ void HostPlayer::compareOutcome() {
     fault.line = reader_.takeNumber32(), fault.task = reader_.takeNumber32();
   }
   const rung_fault& mine = running().fault();
-  const bool same = faults == running().faulted() && (!faults || (fault.code == mine.code && fault.rung == mine.rung &&
-                                                                  fault.line == mine.line && fault.task == mine.task));
+  const bool same = (faults || wasFaulted_) == running().faulted() &&
+                    (!faults || (fault.code == mine.code && fault.rung == mine.rung && fault.line == mine.line &&
+                                 fault.task == mine.task));
   if (!same) difference_ = PlayedDifference{.kind = Kind::Fault};
 }
 

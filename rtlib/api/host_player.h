@@ -74,6 +74,7 @@ private:
   bool neededOnly_ = false;
   bool whole_ = false;
   bool failed_ = false;
+  bool wasFaulted_ = false;
   bool otherRequests_ = false;                       // the program has asked for something that it had not asked for
   runtime::PartKind kind_ = runtime::PartKind::Scan; // of the last part
   uint32_t number_ = 0;

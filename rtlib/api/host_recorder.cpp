@@ -55,7 +55,12 @@ std::unique_ptr<runtime::InputBits> inputBits(const rung_instance& instance, con
 
 HostRecorder::HostRecorder(rung_instance& instance, const runtime::RecorderOptions& options)
     : instance_(instance), running_(instance.running), stream_(options, kPartRoom),
-      inputs_(inputBits(instance, instance.now())) {}
+      inputs_(inputBits(instance, instance.now())) {
+  running_.services().setObserver(
+      [](void* self, const core::ServiceReply& reply) { static_cast<HostRecorder*>(self)->replied(reply); }, this);
+}
+
+HostRecorder::~HostRecorder() { running_.services().setObserver(nullptr, nullptr); }
 
 void HostRecorder::inputsChanged() {
   stream_.beginAnew();
@@ -95,7 +100,6 @@ void HostRecorder::putState() noexcept {
   nowUs_ = running_.nowUs();
   faulted_ = running_.faulted();
   servedKnown_ = false;
-  for (replies_ = 0; running_.services().undelivered(replies_) != nullptr;) ++replies_;
 }
 
 // ---- before a part -----------------------------------------------------------------------------------------------
@@ -105,12 +109,10 @@ void HostRecorder::partBegins(runtime::PartKind kind, uint32_t number, bool with
   if (stream_.whole()) {
     if (running_.nowUs() != nowUs_) events().put(Event::Clock, zigzag(running_.nowUs() - nowUs_));
     if (withInputs && !inputs_->areAsKnown(running_.block().data())) putInputs();
-    if (running_.services().undelivered(replies_) != nullptr) putReplies();
     if (running_.neededCopiesOnly() != neededOnly_) stream_.beginAnew();
   }
   if (stream_.isStateDue(running_.nowUs()) && running_.atListStart()) putState();
   if (!stream_.whole()) return;
-  if (kind != runtime::PartKind::Halt && kind != runtime::PartKind::PowerOff) replies_ = 0; // they are delivered
   stream_.begin(kind, number);
 }
 
@@ -145,9 +147,10 @@ void putReply(EventWriter& writer, Event event, const core::ServiceReply& reply)
 
 } // namespace
 
-void HostRecorder::putReplies() noexcept {
-  for (; const core::ServiceReply* reply = running_.services().undelivered(replies_); ++replies_)
-    putReply(events(), Event::Reply, *reply);
+void HostRecorder::replied(const core::ServiceReply& reply) noexcept {
+  if (!stream_.whole()) return;
+  stream_.putPart();
+  putReply(events(), Event::Reply, reply);
 }
 
 void HostRecorder::putBytes(uint32_t offset, uint32_t count) noexcept {

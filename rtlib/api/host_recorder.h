@@ -37,12 +37,17 @@ std::unique_ptr<runtime::InputBits> inputBits(const rung_instance& instance, con
 class HostRecorder {
 public:
   HostRecorder(rung_instance& instance, const runtime::RecorderOptions& options);
+  ~HostRecorder();
+  HostRecorder(const HostRecorder&) = delete;
+  HostRecorder& operator=(const HostRecorder&) = delete;
 
   runtime::PartStream& stream() noexcept { return stream_; }
 
   // Before a part, after its inputs; `withInputs`: they have been written.
   void partBegins(runtime::PartKind kind, uint32_t number, bool withInputs) noexcept;
   void partEnds() noexcept;
+  // The part finds this reply.
+  void replied(const core::ServiceReply& reply) noexcept;
   // Of a request, whether it is the program's or the control's. `answer`: enum rung_answer.
   void decided(int32_t answer, const core::ServiceReply& reply) noexcept;
   // The host has written there.
@@ -66,7 +71,6 @@ public:
 private:
   void putState() noexcept;
   void putInputs() noexcept;
-  void putReplies() noexcept;
   void putBytes(uint32_t offset, uint32_t count) noexcept;
   void putLogicalByte(uint32_t space, uint32_t byte) noexcept;
   runtime::EventWriter& events() noexcept { return stream_.events(); }
@@ -79,8 +83,7 @@ private:
   bool served_ = false, servedKnown_ = false;
   bool faulted_ = false;
   bool neededOnly_ = false;
-  int64_t nowUs_ = 0;    // after the last part
-  uint32_t replies_ = 0; // that wait and are recorded
+  int64_t nowUs_ = 0; // after the last part
   size_t beforeFunction_ = 0;
 };
 

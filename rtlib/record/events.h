@@ -16,7 +16,7 @@ enum class Event : uint8_t {
   Repeat = 6, // COUNT: the last part so often again, with no event of its own
   Clock = 7,  // US, signed: the clock has advanced by that outside the program
   Bytes = 8,  // OFFSET COUNT BYTES: others have written them to the block
-  Reply = 9,  // TICKET STATE COUNT RESULTS: a reply that the part finds
+  Reply = 9,  // TICKET STATE COUNT RESULTS: a reply that the part, or a hook in it, finds
   Stopped = 10, // 0 or 1: the operator's stop
   Within = 11,  // COUNT: the events after it happen in that hook or latch of the part, counted from 0; after a Task the
                 // rest of the hook counts as another one

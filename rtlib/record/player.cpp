@@ -123,9 +123,6 @@ bool Player::takeBefore(Event event) {
   case Event::Bytes: return takeBytes();
   case Event::Stopped: instance_.setStopped(reader_.takeNumber() != 0); return reader_.good();
   case Event::Request: return takeRequest();
-  case Event::Reply:
-    if (const std::optional<core::ServiceReply> reply = takeReply()) return instance_.services().complete(*reply);
-    return false;
   case Event::Mark: {
     const std::span<const uint8_t> text = reader_.takeBytes(reader_.takeNumber());
     owner_.marked({reinterpret_cast<const char*>(text.data()), text.size()});
@@ -179,6 +176,16 @@ std::optional<core::ServiceReply> Player::takeReply() {
   return takeList(reply.results, reply.resultCount) ? std::optional(reply) : std::nullopt;
 }
 
+// Of those that follow.
+bool Player::takeReplies() {
+  while (isNext(Event::Reply)) {
+    (void)reader_.takeEvent();
+    const std::optional<core::ServiceReply> reply = takeReply();
+    if (!reply || !instance_.services().complete(*reply)) return false;
+  }
+  return true;
+}
+
 bool Player::takeRequest() {
   const uint32_t service = reader_.takeNumber32(), count = reader_.takeNumber32();
   int64_t args[RUNG_MAX_SERVICE_ARGS] = {};
@@ -194,6 +201,7 @@ Played Player::playPart() {
   number_ = reader_.takeNumber32();
   if (!reader_.good() || kind >= static_cast<uint64_t>(PartKind::PowerOff) || !whole_) return damaged();
   kind_ = static_cast<PartKind>(kind);
+  if (!takeReplies()) return damaged();
   run();
   compareOutcome();
   return reader_.good() && !failed_ ? Played::Part : damaged();
@@ -251,6 +259,9 @@ void Player::within() {
       if (isNext(Event::Bytes)) {
         (void)reader_.takeEvent();
         failed_ = failed_ || !takeBytes();
+      } else if (isNext(Event::Reply)) {
+        failed_ = failed_ || !takeReplies();
+        instance_.services().deliver();
       } else if (isNext(Event::Request)) {
         (void)reader_.takeEvent();
         failed_ = failed_ || !takeRequest();

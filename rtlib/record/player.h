@@ -77,6 +77,7 @@ private:
   bool takeSurroundings();
   bool takeForces();
   bool takeBytes();
+  bool takeReplies();
   bool takeRequest();
   std::optional<core::ServiceReply> takeReply();
   bool takeList(int64_t* values, uint32_t count);

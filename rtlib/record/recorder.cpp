@@ -83,7 +83,6 @@ void Recorder::know(const Instance& instance) noexcept {
   stopped_ = instance.stopped();
   faulted_ = instance.faulted();
   forced_ = instance.forcedBits();
-  for (replies_ = 0; instance.services().undelivered(replies_) != nullptr;) ++replies_;
 }
 
 void Recorder::putState(const Instance& instance) noexcept {
@@ -104,10 +103,7 @@ void Recorder::putState(const Instance& instance) noexcept {
   if (stream_.putState(instance.program().code_hash, instance.nowUs(), room, put)) know(instance);
 }
 
-void Recorder::changedWhole(const Instance&) noexcept {
-  stream_.beginAnew();
-  replies_ = 0;
-}
+void Recorder::changedWhole(const Instance&) noexcept { stream_.beginAnew(); }
 
 // ---- before a part -----------------------------------------------------------------------------------------------
 
@@ -118,7 +114,6 @@ void Recorder::begins(const Instance& instance, PartKind kind, uint32_t number) 
   putBefore(instance);
   if (stream_.isStateDue(instance.nowUs()) && instance.atListStart()) putState(instance);
   if (!stream_.whole()) return;
-  if (kind != PartKind::Task && kind != PartKind::Halt) replies_ = 0; // they are delivered
   stream_.begin(kind, number);
 }
 
@@ -129,8 +124,6 @@ void Recorder::putBefore(const Instance& instance) noexcept {
   if (!sameForces(instance.forcedBits(), forced_)) putForces(stream_.events(), forced_ = instance.forcedBits());
   putChanges(instance, bytes_->before);
   putChanges(instance, bytes_->within);
-  for (; const core::ServiceReply* reply = instance.services().undelivered(replies_); ++replies_)
-    putReply(Event::Reply, *reply);
 }
 
 void Recorder::putChanges(const Instance& instance, WatchedBytes& watched) noexcept {
@@ -197,6 +190,13 @@ void Recorder::beginsWithin(const Instance& instance, uint32_t task) noexcept {
   putWithin();
   stream_.events().put(Event::Task, task);
   inWithin_ = false;
+}
+
+void Recorder::replied(const Instance&, const core::ServiceReply& reply) noexcept {
+  if (!stream_.whole()) return;
+  if (inPart_) stream_.putPart();
+  putWithin();
+  putReply(Event::Reply, reply);
 }
 
 void Recorder::requested(const Instance& instance, const core::ServiceRequest& request,

@@ -37,6 +37,7 @@ public:
   void withinEnded(const Instance& instance) noexcept override;
   void requested(const Instance& instance, const core::ServiceRequest& request,
                  const core::ServiceReply* reply) noexcept override;
+  void replied(const Instance& instance, const core::ServiceReply& reply) noexcept override;
   void written(const Instance& instance, uint32_t offset, uint32_t bytes) noexcept override;
   void surroundingsChanged(const Instance& instance) noexcept override;
   void changedWhole(const Instance& instance) noexcept override;
@@ -73,7 +74,6 @@ private:
   bool faulted_ = false;
   std::span<const core::ForcedBits> forced_;
 
-  uint32_t replies_ = 0; // that wait and are written
   bool inPart_ = false;
   // Hooks and latches of the part. After a run of a task within one, the rest of it counts as another one.
   uint32_t within_ = 0; // so far

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <stdexcept>
+#include <utility>
 
 #include "rtlib/api/error.h"
 #include "rtlib/api/running.h"
@@ -94,12 +95,13 @@ Played HostPlayer::play() {
 // The configuration of the control comes before the first power-on.
 Played HostPlayer::playState() {
   const std::span<const uint8_t> bytes = reader_.takeBytes(reader_.takeNumber());
-  if (!reader_.good() || !inputs_) return damaged();
+  if (!reader_.good() || !nextInputs_) return damaged();
   if (!instance_->on) (void)rung_instance_power_on(instance_, RUNG_COLD);
   running().setNeededCopiesOnly(neededOnly_);
   if (whole_) compareState(bytes);
   core::Loader loader(bytes);
   if (loadState(*instance_, loader) != RUNG_OK) return damaged();
+  inputs_ = std::exchange(nextInputs_, std::nullopt);
   inputs_->know(running().block().data());
   whole_ = true;
   return Played::State;
@@ -127,8 +129,8 @@ bool HostPlayer::takeBefore(Event event) {
   case Event::Surroundings: return takeSurroundings();
   case Event::Configured: return takeConfigured();
   case Event::Inputs:
-    inputs_ = runtime::InputBits::fromList(running().block().size(), reader_);
-    return inputs_.has_value();
+    nextInputs_ = runtime::InputBits::fromList(running().block().size(), reader_);
+    return nextInputs_.has_value();
   case Event::Clock: running().advanceClock(unzigzag(reader_.takeNumber())); return reader_.good();
   case Event::Input:
   case Event::Bytes: {

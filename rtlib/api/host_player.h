@@ -69,8 +69,8 @@ private:
   runtime::PlayerOwner& owner_;
   rung_instance* instance_ = nullptr;
   runtime::EventReader reader_{{}};
-  std::optional<runtime::InputBits> inputs_;
-  std::vector<Configured> configured_; // that the control has
+  std::optional<runtime::InputBits> inputs_, nextInputs_; // those of the next state
+  std::vector<Configured> configured_;                    // that the control has
   bool neededOnly_ = false;
   bool whole_ = false;
   bool failed_ = false;

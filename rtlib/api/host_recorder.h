@@ -16,7 +16,7 @@ namespace rung::api {
 
 struct Generation;
 
-// What the machine's configuration has told the control (Event::Configured).
+// A setting of the control by the machine's configuration (Event::Configured).
 struct Configured {
   enum class Kind : uint8_t {
     Stored,    // retained memory is on disk

@@ -207,7 +207,7 @@ Played Player::playPart() {
   return reader_.good() && !failed_ ? Played::Part : damaged();
 }
 
-// Nobody takes what the program sends.
+// What the program sends is dropped.
 void Player::run() {
   within_ = 0;
   switch (kind_) {

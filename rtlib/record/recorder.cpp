@@ -160,7 +160,7 @@ void Recorder::mark(std::string_view text) noexcept {
 
 // ---- within a part -----------------------------------------------------------------------------------------------
 
-// What the program has written in the part so far is not what others write now.
+// What the program has written in the part so far is known.
 void Recorder::withinBegins(const Instance& instance) noexcept { enterWithin(instance); }
 
 void Recorder::withinEnded(const Instance& instance) noexcept {
@@ -215,7 +215,7 @@ void Recorder::requested(const Instance& instance, const core::ServiceRequest& r
 // ---- after a part ------------------------------------------------------------------------------------------------
 
 void Recorder::ended(const Instance& instance) noexcept {
-  if (depth_ != 0) { // of a task within a hook, which goes on
+  if (depth_ != 0) { // of a task within a hook, which continues
     --depth_;
     return enterWithin(instance);
   }

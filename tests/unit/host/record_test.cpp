@@ -116,7 +116,8 @@ constexpr Case kCases[] = {{"Gsk", "mill.pmc", kGsk, kGskMap, kMs, "D120"},
 
 // What a recording says, played.
 struct Replay {
-  Replay(const std::string& folder, const rung_program& program) : image(Image::adopt(program)) {
+  Replay(const std::string& folder, const rung::testing::CompiledProgram& program)
+      : image(Image::adopt(program.program(), program.context())) {
     std::string problem;
     std::optional<runtime::RecordingReader> recording = runtime::RecordingReader::open(folder, problem);
     EXPECT_TRUE(recording) << problem;
@@ -225,7 +226,7 @@ TEST_P(Recorded, IsPlayedByTheInterpreter) {
   EXPECT_EQ(info.losses, 0u);
   EXPECT_STREQ(info.problem, "");
   b.host.reset();
-  const Replay replay((folder / "rec").string(), again.program());
+  const Replay replay((folder / "rec").string(), again);
   EXPECT_GT(replay.parts, 4'000u);
   EXPECT_GE(replay.states, 3u);
   EXPECT_EQ(replay.losses, 0u);

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <cstring>
 #include <iterator>
 #include <stdexcept>
@@ -30,9 +31,7 @@ constexpr double kShortestTimeout = 1e-9;
 constexpr std::string_view kPermissions = "a list of \"set\", \"force\", \"reload\", \"start\", \"stop\", \"reset\", "
                                           "\"profile\", \"serve\" and \"acknowledge\"";
 
-constexpr double kMegabyte = 1 << 20;
-constexpr double kLeastLog = 0.1; // megabytes
-constexpr double kMostLog = 1000;
+constexpr uint64_t kKilobyte = 1000, kMegabyte = 1000 * kKilobyte, kGigabyte = 1000 * kMegabyte;
 
 constexpr int64_t kMostBits = 32;
 constexpr size_t kMostFiles = 64; // including nested files
@@ -102,9 +101,10 @@ private:
   template <class Row>
   using Key = text::TomlKey<Reader, Row>;
 
-  static const Key<File> kFileKeys[19];
+  static const Key<File> kFileKeys[20];
   static const Key<File> kLogKeys[1];
   static const Key<File> kRemoteKeys[2];
+  static const Key<RecordingSetting> kRecordingKeys[4];
   static const Key<PinRow> kType, kName, kScale, kBits, kValue, kSafe;
   static const Key<PinRow> kInputKeys[4], kOutputKeys[5], kParameterKeys[4];
   static const Key<SendRow> kSendKeys[6];
@@ -176,15 +176,35 @@ private:
     return table != nullptr;
   }
   bool takeLogSize(const toml::node& node, File& map) {
-    const std::optional<double> size = text::numberOf(node);
-    if (!size || !(*size >= kLeastLog && *size <= kMostLog)) return false;
+    if (!takeBytes(node, 100 * kKilobyte, kGigabyte, map.logBytes)) return false;
     if (logAt_)
-      fail(positionOf(node), "log.size: found a second one, expected only that of " + lineOf(*logAt_) +
-                                 "; remove one of them");
+      fail(positionOf(node),
+           "log.size: found a second one, expected only that of " + lineOf(*logAt_) + "; remove one of them");
     logAt_ = positionOf(node);
-    map.logBytes = static_cast<uint64_t>(*size * kMegabyte);
     return true;
   }
+  bool takeRecording(const toml::node& node, File& map) {
+    const toml::table* table = node.as_table();
+    if (table != nullptr) readKeys(*table, "recording", kRecordingKeys, map.recording);
+    return table != nullptr;
+  }
+  bool takeRecordingOff(const toml::node& node, RecordingSetting& setting) {
+    const std::optional<bool> off = node.value_exact<bool>();
+    setting.off = off.value_or(false);
+    return off.has_value();
+  }
+  bool takeRecordingFolder(const toml::node& node, RecordingSetting& setting) {
+    const std::string folder = text::stringOf(node);
+    if (!folder.empty()) setting.folder = beside(map().paths[file()], folder);
+    return !folder.empty();
+  }
+  bool takeRecordingLimit(const toml::node& node, RecordingSetting& setting) {
+    return takeBytes(node, 16 * kMegabyte, 1024 * kGigabyte, setting.limitBytes);
+  }
+  bool takeRecordingKept(const toml::node& node, RecordingSetting& setting) {
+    return takeBytes(node, 16 * kMegabyte, 1024 * kGigabyte, setting.keptBytes);
+  }
+  static bool takeBytes(const toml::node& node, uint64_t least, uint64_t most, uint64_t& bytes);
   bool takePermissions(const toml::node& node, File& map) {
     const toml::array* list = node.as_array();
     if (list == nullptr) return false;
@@ -328,7 +348,8 @@ const Reader::Key<File> Reader::kFileKeys[] = {
      &Reader::takeAxisGroups},
     {"abort", false, "a list of tables", "[[abort]] and its keys in the lines after it", &Reader::takeAborts},
     {"rungctl", false, "a table", "[rungctl] and permissions = [ … ] in the lines after it", &Reader::takeRemote},
-    {"log", false, "a table", "[log] and size = 4 in the lines after it", &Reader::takeLog},
+    {"log", false, "a table", "[log] and size = \"4MB\" in the lines after it", &Reader::takeLog},
+    {"recording", false, "a table", "[recording] and limit = \"512MB\" in the lines after it", &Reader::takeRecording},
     {"modbus-client", false, "a list of tables", "[[modbus-client]] and its keys in the lines after it",
      &Reader::takeClients},
     {"devices", false, "a table", "[devices] and com = { 1 = \"/dev/ttyUSB0\" } in the lines after it",
@@ -343,8 +364,31 @@ const Reader::Key<File> Reader::kRemoteKeys[] = {
 };
 
 const Reader::Key<File> Reader::kLogKeys[] = {
-    {"size", false, "megabytes on disk, 0.1 to 1000", "size = 4", &Reader::takeLogSize},
+    {"size", false, "a number of kB, MB or GB as a text, 100kB to 1GB", "size = \"4MB\"", &Reader::takeLogSize},
 };
+
+constexpr std::string_view kBytes = "a number of MB or GB as a text, 16MB to 1024GB";
+const Reader::Key<RecordingSetting> Reader::kRecordingKeys[] = {
+    {"off", false, "true or false", "off = true", &Reader::takeRecordingOff},
+    {"folder", false, "the path of a folder", "folder = \"/var/lib/mill/recording\"", &Reader::takeRecordingFolder},
+    {"limit", false, kBytes, "limit = \"512MB\"", &Reader::takeRecordingLimit},
+    {"keep", false, kBytes, "keep = \"256MB\"", &Reader::takeRecordingKept},
+};
+
+// A number and its unit as a text.
+bool Reader::takeBytes(const toml::node& node, uint64_t least, uint64_t most, uint64_t& bytes) {
+  static constexpr std::pair<std::string_view, uint64_t> kUnits[] = {
+      {"kB", kKilobyte}, {"MB", kMegabyte}, {"GB", kGigabyte}};
+  const std::string text = text::stringOf(node);
+  const auto* const unit = std::ranges::find_if(kUnits, [&](const auto& each) { return text.ends_with(each.first); });
+  if (unit == std::end(kUnits)) return false;
+  const std::string_view digits = std::string_view(text).substr(0, text.size() - unit->first.size());
+  uint32_t number = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
+  if (error != std::errc() || end != digits.data() + digits.size()) return false;
+  bytes = number * unit->second;
+  return bytes >= least && bytes <= most;
+}
 
 const Reader::Key<PinRow> Reader::kType = {"type", true, "\"bit\", \"s32\", \"u32\" or \"float\"", "type = \"bit\"",
                                            &Reader::takeType};

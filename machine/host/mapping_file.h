@@ -184,6 +184,14 @@ struct DeviceSetting {
   text::Position at; // position of the value
 };
 
+// recording: what the host does to its program is recorded.
+struct RecordingSetting {
+  bool off = false;
+  std::string folder;      // "": beside the retained memory
+  uint64_t limitBytes = 0; // 0: the default
+  uint64_t keptBytes = 0;
+};
+
 // A mapping file with the files that it includes; all entries are in the order of the text.
 struct File {
   std::vector<std::string> paths; // the file and those that it includes; Position::file is an index into them
@@ -200,6 +208,7 @@ struct File {
   uint64_t logBytes = kLogBytes; // of the log on disk, both of its files together
   std::vector<Connection> connections;
   std::vector<DeviceSetting> devices;
+  RecordingSetting recording;
   std::vector<Edge> aborts;                // edges that end every function: reset, emergency stop
   int64_t timeoutNs = 0;                   // timeout of a function; 0: none
   std::optional<text::Position> highSpeed; // position of `high-speed = true`

@@ -26,23 +26,6 @@ struct OfLibrary {
   }
 };
 
-int32_t save(const rung_instance& instance, core::Saver& saver) noexcept {
-  if (!instance.running.save(saver)) return fail(RUNG_LATER, "a scan has not ended");
-  instance.environment->save(saver);
-  saver(OfLibrary{.scans = instance.scans,
-                  .functionChannels = instance.functionChannels,
-                  .ending = instance.ending,
-                  .lastScan = instance.lastScan});
-  return RUNG_OK;
-}
-
-// Whether the control has all channels in which functions were started.
-bool hasChannels(const rung_instance& instance, uint32_t channels) noexcept {
-  for (uint32_t left = channels; left != 0; left &= left - 1)
-    if (instance.control->functions(static_cast<uint32_t>(std::countr_zero(left))) == nullptr) return false;
-  return true;
-}
-
 int32_t failLoad(runtime::LoadResult result) noexcept {
   switch (result) {
   case runtime::LoadResult::OtherProgram:
@@ -55,7 +38,19 @@ int32_t failLoad(runtime::LoadResult result) noexcept {
   return fail(RUNG_REFUSED, "the state is damaged, or was saved by another version of the library");
 }
 
-int32_t load(rung_instance& instance, core::Loader& loader) {
+} // namespace
+
+bool saveState(const rung_instance& instance, core::Saver& saver, Waiting waiting) noexcept {
+  if (!instance.running.save(saver, waiting == Waiting::Included)) return false;
+  instance.environment->save(saver);
+  saver(OfLibrary{.scans = instance.scans,
+                  .functionChannels = instance.functionChannels,
+                  .ending = instance.ending,
+                  .lastScan = instance.lastScan});
+  return true;
+}
+
+int32_t loadState(rung_instance& instance, core::Loader& loader) {
   const runtime::LoadResult result = instance.running.load(loader);
   if (result == runtime::LoadResult::OtherProgram || result == runtime::LoadResult::OtherForces)
     return failLoad(result);
@@ -65,7 +60,8 @@ int32_t load(rung_instance& instance, core::Loader& loader) {
   if (isPossible) {
     instance.environment->load(instance.running, loader);
     loader(own);
-    loader.require(hasChannels(instance, own.functionChannels));
+    for (uint32_t left = own.functionChannels; left != 0; left &= left - 1)
+      loader.require(instance.control->functions(static_cast<uint32_t>(std::countr_zero(left))) != nullptr);
   }
   if (!isPossible || !loader.good() || loader.left() != 0) {
     instance.on = false;
@@ -78,10 +74,9 @@ int32_t load(rung_instance& instance, core::Loader& loader) {
   instance.faultReported = instance.running.faulted();
   instance.pace.restart();
   settleForces(instance);
+  if (instance.recorder) instance.recorder->changedWhole();
   return RUNG_OK;
 }
-
-} // namespace
 
 } // namespace rung::api
 
@@ -94,7 +89,7 @@ int32_t rung_instance_save(const rung_instance* instance, void* bytes, size_t si
   if (used == nullptr || (bytes == nullptr && size != 0))
     return fail(RUNG_BAD_ARGUMENT, "the pointer that receives the state or its size is null");
   core::Saver saver({static_cast<uint8_t*>(bytes), size});
-  if (const int32_t status = save(*call, saver); status != RUNG_OK) return status;
+  if (!saveState(*call, saver, Waiting::Included)) return fail(RUNG_LATER, "a scan has not ended");
   *used = saver.size();
   if (saver.fits() || bytes == nullptr) return RUNG_OK;
   return fail(RUNG_BAD_ARGUMENT, "the state has %zu bytes, there is room for %zu", saver.size(), size);
@@ -105,7 +100,7 @@ int32_t rung_instance_load(rung_instance* instance, const void* bytes, size_t si
   if (!call.ok()) return call.status();
   if (bytes == nullptr) return fail(RUNG_BAD_ARGUMENT, "the state is null");
   core::Loader loader({static_cast<const uint8_t*>(bytes), size});
-  return contained([&] { return load(*call, loader); });
+  return contained([&] { return loadState(*call, loader); });
 }
 
 int32_t rung_instance_set_clock(rung_instance* instance, int64_t now_us) {

@@ -160,7 +160,8 @@ Outcome runInBox(const rung_program& program, host::File map, const std::string&
     outcome.slices += result == host::StepResult::Ran ? 1 : 0;
     outcome.faults += result == host::StepResult::Failed ? 1 : 0;
     reset = !host->running() && !reset;
-    host->serve(reports);
+    std::vector<host::Report> served;
+    host->serve(served);
     rung_message_info message{};
     while (host->nextMessage(message)) ++outcome.messages;
   }
@@ -194,8 +195,9 @@ Outcome runFastApart(const rung_program& program, const host::File& map) {
       outcome.problem = inSlice(outcome.slices, "pin " + pin + " differs");
     outcome.faults += whole->running() ? 0 : 1;
     reset = !whole->running() && !reset;
-    whole->serve(reports);
-    apart->serve(reports);
+    std::vector<host::Report> served;
+    whole->serve(served);
+    apart->serve(served);
   }
   return outcome;
 }

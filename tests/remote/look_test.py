@@ -231,7 +231,7 @@ class Log(Retaining):
 
 
 class LogSize(Retaining):
-    map = Retaining.map + "[log]\nsize = 0.1\n"
+    map = Retaining.map + "[log]\nsize = \"100kB\"\n"
 
     def test_two_files_of_that_size(self):
         made, lines = self.connect()

@@ -115,10 +115,13 @@ public:
   // replies to requests taken before count as stray.
   void restart() noexcept;
 
-  // The tickets, the requests that wait and the replies that have not been delivered. Scan thread,
+  // Scan thread: the replies that wait for `deliver`, of which the oldest is number 0; null: there are not that many.
+  const ServiceReply* undelivered(uint32_t number) const noexcept { return replies_.peek(number); }
+
+  // The tickets, the replies that have not been delivered and, if `waiting`, the requests that wait. Scan thread,
   // between scans. What a loaded queue asks its host for is what it had asked for when it was saved; while it is
   // loaded, the host's side must not be active. A state that is impossible leaves the queue as after a restart.
-  void save(Saver& saver) const noexcept;
+  void save(Saver& saver, bool waiting) const noexcept;
   void load(Loader& loader) noexcept;
 
 private:

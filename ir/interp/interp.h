@@ -35,7 +35,7 @@ public:
   // Called after the rung with this number (over all routines) has run; `values` holds the bits of its values, 0 in
   // regions that were not entered. No values: it stopped the program with a fault.
   virtual void rungRan(uint32_t number, std::span<const uint64_t> values) = 0;
-  // Called for each access of a rung, in their order, before its rungRan.
+  // Called after each access of a rung, in their order, before its rungRan.
   virtual void accessed(const Access& /*access*/) {}
 };
 

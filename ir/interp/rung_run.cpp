@@ -82,11 +82,11 @@ void RungRun::load(const Op& op) {
 void RungRun::store(const Op& op) {
   const auto place = static_cast<uint64_t>(op.imm);
   const SpaceId space{op.ref};
-  tellMemory(op, place, in(op, 0), true);
   if (op.type == Type::Bit)
     writeBit(layout_.bit(space, place), in(op, 0) != 0);
   else
     writeBytes(layout_.byte(space, static_cast<uint32_t>(place / 8)), op.type, in(op, 0));
+  tellMemory(op, place, in(op, 0), true);
 }
 
 void RungRun::loadAt(const Op& op) {
@@ -101,8 +101,8 @@ void RungRun::storeAt(const Op& op) {
   const auto index = static_cast<uint32_t>(in(op, 0));
   if (index >= op.count) return;
   const auto byte = static_cast<uint32_t>(op.imm / 8) + index * unitBytes(op);
-  tellMemory(op, uint64_t{byte} * 8, in(op, 1), true);
   writeBytes(layout_.byte(SpaceId{op.ref}, byte), op.type, in(op, 1));
+  tellMemory(op, uint64_t{byte} * 8, in(op, 1), true);
 }
 
 void RungRun::loadBitAt(const Op& op) {
@@ -121,8 +121,8 @@ void RungRun::storeBitAt(const Op& op) {
   const uint32_t unitBits = unitBytes(op) * 8;
   if (index >= op.count || bit >= unitBits) return;
   const uint64_t place = static_cast<uint64_t>(op.imm) + uint64_t{index} * unitBits + bit;
-  tellMemory(op, place, in(op, 2), true);
   writeBit(layout_.bit(SpaceId{op.ref}, place), in(op, 2) != 0);
+  tellMemory(op, place, in(op, 2), true);
 }
 
 void RungRun::slotLoad(const Op& op) {
@@ -131,11 +131,11 @@ void RungRun::slotLoad(const Op& op) {
 }
 
 void RungRun::slotStore(const Op& op) {
-  tell(op, {}, SlotId{op.ref}, in(op, 0), true);
   if (op.type == Type::Bit)
     writeBit({slotOffset(op), 0, true}, in(op, 0) != 0);
   else
     writeBytes(slotOffset(op), op.type, in(op, 0));
+  tell(op, {}, SlotId{op.ref}, in(op, 0), true);
 }
 
 // ---- regions -------------------------------------------------------------------------------------------------------

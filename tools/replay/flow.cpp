@@ -32,8 +32,8 @@ std::vector<uint32_t> Flow::timesRun() const {
 // Fills the flow. As an observer of rungs it belongs to the engine, as a watch of tasks to the instance.
 class FlowEngine::Watch final : public ir::RungObserver, public runtime::TaskWatch {
 public:
-  Watch(const Elements& elements, Flow& flow, const std::function<void(size_t)>& afterRun)
-      : elements_(elements), flow_(flow), afterRun_(afterRun) {}
+  Watch(const Elements& elements, runtime::Instance& instance, Flow& flow, const AfterRun& afterRun)
+      : elements_(elements), instance_(instance), flow_(flow), afterRun_(afterRun) {}
 
   void begins(const runtime::Instance& instance, uint32_t task) override {
     flow_.tasks_.push_back(
@@ -44,7 +44,11 @@ public:
     task.runCount = static_cast<uint32_t>(flow_.runs_.size()) - task.firstRun;
   }
 
-  void accessed(const ir::Access& access) override { flow_.accesses_.push_back(access); }
+  // A forced bit that the operation has written has its value again before anything can read it.
+  void accessed(const ir::Access& access) override {
+    flow_.accesses_.push_back(access);
+    if (access.writes) instance_.hold();
+  }
   void rungRan(uint32_t lowered, std::span<const uint64_t> values) override {
     const auto end = static_cast<uint32_t>(flow_.accesses_.size());
     flow_.runs_.push_back({.lowered = lowered,
@@ -54,7 +58,7 @@ public:
                            .accessCount = end - firstAccess_});
     firstAccess_ = end;
     for (const Point& point : elements_.points(lowered)) flow_.powers_.push_back(powerOf(point, values));
-    if (afterRun_) afterRun_(flow_.runs_.size() - 1);
+    if (afterRun_) afterRun_(flow_.runs_.size() - 1, values);
   }
 
 private:
@@ -64,8 +68,9 @@ private:
   }
 
   const Elements& elements_;
+  runtime::Instance& instance_;
   Flow& flow_;
-  const std::function<void(size_t)>& afterRun_;
+  const AfterRun& afterRun_;
   uint32_t firstAccess_ = 0; // of the run that has not ended
 };
 
@@ -90,10 +95,10 @@ std::string FlowEngine::shownValue(const ir::Access& access) const {
 }
 
 const Flow& FlowEngine::observe(runtime::Instance& instance, const std::function<void()>& run,
-                                const std::function<void(size_t)>& afterRun) {
+                                const AfterRun& afterRun) {
   RUNG_CHECK(&instance.program() == &engine_.program(), "the instance is one of this engine");
   flow_ = Flow(elements_);
-  auto watch = std::make_unique<Watch>(elements_, flow_, afterRun);
+  auto watch = std::make_unique<Watch>(elements_, instance, flow_, afterRun);
   const bool faulted = instance.faulted();
   instance.setTaskWatch(watch.get());
   engine_.setObserver(std::move(watch));

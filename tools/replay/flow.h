@@ -87,10 +87,11 @@ public:
   // As the front end built it.
   const ir::Rung& rung(uint32_t lowered) const { return *rungs_[lowered]; }
 
-  // Observes the instance, which is of this engine, while `run` runs. The result is valid until the next call.
-  // `afterRun` (or nothing) is called after each run of a rung, with its index in Flow::runs: memory is as it left it.
-  const Flow& observe(runtime::Instance& instance, const std::function<void()>& run,
-                      const std::function<void(size_t)>& afterRun = {});
+  // Observes the instance, which is of this engine, while `run` runs; its forces need no code of their own. The result
+  // is valid until the next call. `afterRun` (or nothing) is called after each run of a rung, with its index in
+  // Flow::runs and the rung's values (none after a fault): memory is as the rung left it.
+  using AfterRun = std::function<void(size_t run, std::span<const uint64_t> values)>;
+  const Flow& observe(runtime::Instance& instance, const std::function<void()>& run, const AfterRun& afterRun = {});
   // Of the last call.
   const Flow& flow() const { return flow_; }
 

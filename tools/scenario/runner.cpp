@@ -73,6 +73,7 @@ private:
     add(result_.problems, unfitValues(scenario_, session_.instance(), session_.nc()));
     if (!result_.problems.empty() || !observe(program_->compiled())) return;
     runStatements();
+    if (options_.ended) options_.ended(session_);
   }
 
   void note(const CompileStep& step) {

@@ -142,21 +142,29 @@ std::vector<Leaf> RungReasons::of(uint32_t store) const {
   all.value(storedValue(op));
   all.reached(store);
   for (int i = 0; i + 1 < op.argCount; ++i) all.index(argument(op, i));
-  std::ranges::sort(all.leaves, {}, &Leaf::operation);
-  // Which of the bits decided alone.
-  const uint32_t root = storedValue(op);
-  if (ir::typeOf(rung_, ir::ValueId{root}) == ir::Type::Bit) {
-    std::vector<ir::ValueId> bits;
-    std::vector<Leaf*> which;
-    for (Leaf& leaf : all.leaves) {
-      if (ir::typeOf(rung_, ir::ValueId{leaf.value}) != ir::Type::Bit) continue;
-      bits.push_back(ir::ValueId{leaf.value});
-      which.push_back(&leaf);
-    }
-    const report::Expression expression(rung_, ir::ValueId{root}, bits);
-    expression.findDeciding(values_, [&](size_t i) { which[expression.conditions()[i]]->alone = true; });
+  return marked(std::move(all.leaves), storedValue(op));
+}
+
+std::vector<Leaf> RungReasons::ofValue(uint32_t value) const {
+  Justification all(*this);
+  all.value(value);
+  return marked(std::move(all.leaves), value);
+}
+
+// In order, with the bits that decided alone.
+std::vector<Leaf> RungReasons::marked(std::vector<Leaf> leaves, uint32_t root) const {
+  std::ranges::sort(leaves, {}, &Leaf::operation);
+  if (ir::typeOf(rung_, ir::ValueId{root}) != ir::Type::Bit) return leaves;
+  std::vector<ir::ValueId> bits;
+  std::vector<Leaf*> which;
+  for (Leaf& leaf : leaves) {
+    if (ir::typeOf(rung_, ir::ValueId{leaf.value}) != ir::Type::Bit) continue;
+    bits.push_back(ir::ValueId{leaf.value});
+    which.push_back(&leaf);
   }
-  return all.leaves;
+  const report::Expression expression(rung_, ir::ValueId{root}, bits);
+  expression.findDeciding(values_, [&](size_t i) { which[expression.conditions()[i]]->alone = true; });
+  return leaves;
 }
 
 // ---- what would have to change -----------------------------------------------------------------------------------

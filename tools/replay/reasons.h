@@ -25,6 +25,8 @@ public:
   // What decided the value that the operation stored, where, and whether it was reached: enough of it that the outcome
   // follows. In the order of the operations.
   std::vector<Leaf> of(uint32_t store) const;
+  // What decided a value.
+  std::vector<Leaf> ofValue(uint32_t value) const;
   // The fewest leaves that would have to have the other value for the stored bit to have the other one. Empty: no
   // number of them would do, as far as the rung shows.
   std::vector<Leaf> toChange(uint32_t store) const;
@@ -33,6 +35,7 @@ private:
   class Justification;
   class Change;
   uint32_t argument(const ir::Op& op, int i) const { return ir::arg(rung_, op, i).index; }
+  std::vector<Leaf> marked(std::vector<Leaf> leaves, uint32_t root) const;
   uint32_t storedValue(const ir::Op& op) const;
   static bool isLeaf(const ir::Op& op);
 

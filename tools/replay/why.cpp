@@ -314,14 +314,17 @@ private:
   // What was copied at the beginning of a run is as before its first rung, what is copied at the end as after its last.
   Reason ofSource(const Cell& source, uint64_t part) { return reasonOf(source, part, {}); }
 
-  // A statement of a scenario that names the cell before the part.
+  // The statements of a scenario that set values before the part: that of the cell, otherwise all if they are few.
   std::string noteAt(const std::string& name, uint64_t part) const {
-    const std::string_view symbol = std::string_view(name).substr(0, name.find(' '));
-    for (const Note& note : past_.recording().notes)
-      if (note.part + 1 == part && note.text.find(symbol) != std::string::npos &&
-          note.text.find("expect") == std::string::npos)
-        return note.text;
-    return {};
+    constexpr size_t kFew = 3;
+    const std::string symbol = " " + name.substr(0, name.find(' ')) + " ";
+    std::vector<std::string> sets;
+    for (const Note& note : past_.recording().notes) {
+      if (note.part + 1 != part || note.text.find("expect") != std::string::npos) continue;
+      if (note.text.find(symbol) != std::string::npos) return note.text;
+      if (note.text.find("set ") != std::string::npos) sets.push_back(note.text);
+    }
+    return sets.size() > kFew ? std::string() : fmt::format("{}", fmt::join(sets, "; "));
   }
 
   bool visit(const Cell& cell, uint64_t part) {
@@ -354,7 +357,7 @@ private:
     const std::vector<Leaf> leaves = reasons.of(access.operation);
     if (count_ == 1 && cell.bits.count == 1 && !cell.slot.valid())
       noteChange(reasons, access.operation, rung, facts, run);
-    follow(reason, leaves, rung, part, facts, write.run);
+    follow(reason, leaves, part, facts, write.run);
     return reason;
   }
 
@@ -380,63 +383,114 @@ private:
     return {std::nullopt, 0};
   }
 
-  void follow(Reason& reason, const std::vector<Leaf>& leaves, const ir::Rung& rung, uint64_t part,
-              const PartFacts& facts, size_t runNumber) {
+  // A leaf of a run that ran at `moment` within the part.
+  struct Operand {
+    Leaf leaf;
+    Cell cell;
+    uint64_t value = 0;
+    Within at;
+    int rank = 0;                  // the chain prefers a higher one
+    std::optional<uint64_t> since; // the part of its last change; nothing: before the recording
+  };
+  struct Operands {
+    std::vector<Operand> all;
+    bool clock = false, answer = false;
+    bool hasNames() const {
+      return std::ranges::any_of(all, [](const Operand& o) { return !o.cell.slot.valid(); });
+    }
+  };
+
+  // What the author named comes before what the rung keeps for itself, and that before state of the compiler.
+  void add(Operands& to, const std::vector<Leaf>& leaves, const PartFacts& facts, size_t runNumber) {
     const RungFlow& run = facts.flow->runs()[runNumber];
-    struct Operand {
-      Leaf leaf;
-      Cell cell;
-      uint64_t value = 0;
-      Within at;
-      uint64_t since = 0; // the part of its last change
-    };
-    std::vector<Operand> operands;
+    const ir::Rung& rung = past_.flowEngine().rung(run.lowered);
     for (const Leaf& leaf : leaves) {
-      const ir::Op& op = rung.ops[leaf.operation];
+      const ir::OpCode code = rung.ops[leaf.operation].code;
       size_t number = 0;
       const auto [cell, value] = cellOf(leaf, rung, facts, run, &number);
-      if (!cell) {
-        if (op.code == ir::OpCode::LoadAt || op.code == ir::OpCode::LoadBitAt) continue; // outside the window
-        Reason other;
-        other.kind = op.code == ir::OpCode::Now ? Reason::Kind::Clock : Reason::Kind::Answer;
-        other.name = other.kind == Reason::Kind::Clock ? "the clock" : "an answer of the control";
-        other.part = part;
-        other.us = facts.us;
-        reason.because.push_back(std::move(other));
-        continue;
-      }
-      const auto same = std::ranges::find_if(operands, [&](const Operand& o) { return o.cell == *cell; });
-      if (same == operands.end()) operands.push_back({leaf, *cell, value, {runNumber, number}});
+      to.clock = to.clock || code == ir::OpCode::Now || (cell && isClock(*cell));
+      to.answer = to.answer || code == ir::OpCode::ServicePoll || code == ir::OpCode::ServiceResult;
+      if (!cell || isClock(*cell)) continue;
+      const bool own = std::ranges::any_of(facts.flow->accesses(run), [&, c = *cell](const Access& access) {
+        return access.writes && touches(access, c);
+      });
+      const int rank = cell->slot.valid() ? 0 : own ? 1 : 2;
+      const auto same = std::ranges::find_if(to.all, [&, c = *cell](const Operand& o) { return o.cell == c; });
+      if (same == to.all.end()) to.all.push_back({leaf, *cell, value, {runNumber, number}, rank, {}});
     }
+  }
+
+  // What led to a rung that does not always run: the last rung before it in the part that decides whether it does.
+  void addDecider(Operands& to, const PartFacts& facts, size_t runNumber) {
+    const std::vector<uint32_t> deciders = uses().decidersOf(facts.flow->runs()[runNumber].lowered);
+    for (size_t r = runNumber; r-- > 0;) {
+      const uint32_t lowered = facts.flow->runs()[r].lowered;
+      if (std::ranges::find(deciders, lowered) == deciders.end() || facts.values[r].empty()) continue;
+      const ir::Transfer& transfer = past_.flowEngine().rung(lowered).transfer;
+      const ir::ValueId value = transfer.cond.valid() ? transfer.cond : transfer.value;
+      if (!value.valid()) continue;
+      add(to, RungReasons(past_.flowEngine().rung(lowered), facts.values[r]).ofValue(value.index), facts, r);
+      if (to.hasNames()) return;
+    }
+  }
+
+  void follow(Reason& reason, const std::vector<Leaf>& leaves, uint64_t part, const PartFacts& facts,
+              size_t runNumber) {
+    Operands operands;
+    add(operands, leaves, facts, runNumber);
+    if (!operands.hasNames()) addDecider(operands, facts, runNumber);
+    findSince(operands.all, part, facts);
     // The one that changed last is the cause of the change; the chain goes on there.
+    std::ranges::stable_sort(operands.all, [](const Operand& a, const Operand& b) {
+      return std::tuple(a.rank, a.since, a.leaf.alone) > std::tuple(b.rank, b.since, b.leaf.alone);
+    });
+    for (const Operand& operand : operands.all) {
+      const uint64_t since = operand.since.value_or(past_.firstPart());
+      const Reason::Kind kept = operand.since ? Reason::Kind::Kept : Reason::Kind::Before;
+      Reason next = reason.because.empty() && visit(operand.cell, since)
+                        ? reasonOf(operand.cell, part, operand.at, operand.value)
+                        : plain(operand.cell, operand.value, kept, since, timeOf(since));
+      next.alone = operand.leaf.alone;
+      next.isIndex = operand.leaf.isIndex;
+      reason.because.push_back(std::move(next));
+    }
+    if (operands.clock) reason.because.push_back(bare(Reason::Kind::Clock, part, facts));
+    if (operands.answer) reason.because.push_back(bare(Reason::Kind::Answer, part, facts));
+  }
+
+  void findSince(std::vector<Operand>& operands, uint64_t part, const PartFacts& facts) {
     std::vector<Cell> cells;
+    std::vector<Operand*> whose;
     for (Operand& operand : operands) {
       uint64_t value = 0;
       bool fromBefore = false;
       const bool here = writeIn(facts, operand.cell, operand.at, value, fromBefore).has_value() || !fromBefore ||
                         value != operand.value;
-      operand.since = here ? part : 0;
-      if (!here) cells.push_back(operand.cell);
+      if (here) {
+        operand.since = part;
+        continue;
+      }
+      cells.push_back(operand.cell);
+      whose.push_back(&operand);
     }
-    if (!cells.empty() && part > 0) {
-      const std::vector<std::optional<uint64_t>> changes = lastChanges(cells, part - 1);
-      size_t next = 0;
-      for (Operand& operand : operands)
-        if (operand.since == 0) operand.since = changes[next++].value_or(past_.firstPart());
-    }
-    std::ranges::stable_sort(operands, [](const Operand& a, const Operand& b) {
-      return std::tuple(a.since, a.leaf.alone) > std::tuple(b.since, b.leaf.alone);
-    });
-    for (size_t i = 0; i < operands.size(); ++i) {
-      const Operand& operand = operands[i];
-      const bool goesOn = i == 0 || operand.cell.slot.valid();
-      Reason next = goesOn && visit(operand.cell, operand.since)
-                        ? reasonOf(operand.cell, part, operand.at, operand.value)
-                        : plain(operand.cell, operand.value, Reason::Kind::Kept, operand.since, timeOf(operand.since));
-      next.alone = operand.leaf.alone;
-      next.isIndex = operand.leaf.isIndex;
-      reason.because.push_back(std::move(next));
-    }
+    if (cells.empty() || part == 0) return;
+    const std::vector<std::optional<uint64_t>> changes = lastChanges(cells, part - 1);
+    for (size_t i = 0; i < cells.size(); ++i) whose[i]->since = changes[i];
+  }
+
+  static Reason bare(Reason::Kind kind, uint64_t part, const PartFacts& facts) {
+    Reason reason;
+    reason.kind = kind;
+    reason.name = kind == Reason::Kind::Clock ? "the clock" : "an answer of the control";
+    reason.part = part;
+    reason.us = facts.us;
+    return reason;
+  }
+  // Where the compiler keeps the time of a task for all its timers.
+  bool isClock(const Cell& cell) const {
+    if (!cell.slot.valid()) return false;
+    const std::string& key = past_.compiled().shape->slots[cell.slot.index].key;
+    return key.starts_with("@clock/") || key.starts_with("@scan/");
   }
 
   int64_t timeOf(uint64_t part) {

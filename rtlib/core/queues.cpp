@@ -98,6 +98,7 @@ void ServiceQueue::deliverAll() noexcept {
     }
     fill(record, reply);
     --pending_;
+    if (delivered_ != nullptr) delivered_(observer_, reply);
   }
 }
 
@@ -148,7 +149,7 @@ void ServiceQueue::save(Saver& saver, bool waiting) const noexcept {
   for (uint32_t i = 0; i < asked; ++i) {
     saver(*requests_.peek(i));
   }
-  const uint32_t answered = lengthOf(replies_);
+  const uint32_t answered = waiting ? lengthOf(replies_) : 0;
   saver(answered);
   for (uint32_t i = 0; i < answered; ++i) {
     ServiceReply reply = *replies_.peek(i);

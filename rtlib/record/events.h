@@ -16,7 +16,7 @@ enum class Event : uint8_t {
   Repeat = 6, // COUNT: the last part so often again, with no event of its own
   Clock = 7,  // US, signed: the clock has advanced by that outside the program
   Bytes = 8,  // OFFSET COUNT BYTES: others have written them to the block
-  Reply = 9,  // TICKET STATE COUNT RESULTS: a reply that the part finds
+  Reply = 9,  // TICKET STATE COUNT RESULTS: a reply that the part, or a hook in it, finds
   Stopped = 10, // 0 or 1: the operator's stop
   Within = 11,  // COUNT: the events after it happen in that hook or latch of the part, counted from 0; after a Task the
                 // rest of the hook counts as another one
@@ -29,6 +29,16 @@ enum class Event : uint8_t {
   Anew = 18,    // the program was started, or another one has taken over: the next State does not follow from before
   Mark = 19,    // COUNT BYTES: a text
   Lost = 20,    // events are missing, up to the next State
+  Program = 21, // HASH: the program of the next State (rung_program::code_hash); where a recording may begin
+  // Only where the control of the dialect runs again (HostRecorder):
+  Inputs = 22, // COUNT (SKIP BYTES MASKS)...: bits that the host writes before each slice, first as in the next State
+  Input = 23,  // OFFSET COUNT BYTES: from now on the host writes these
+  Configured = 24, // KIND A B COUNT TEXT: struct Configured
+  Function = 25,   // CHANNEL KIND CODE: the host has begun a function
+  Abort = 26,      // CHANNEL: it has aborted all of them
+  Served = 27,     // 0 or 1: whether a CNC carries out requests
+  Saved = 28,      // the memory that the program has asked to save is on disk
+  Decision = 29,   // enum rung_answer: what the host has said to a request, if it has not answered it
 };
 
 // Writes events to memory of the caller. One that does not fit is left out, and so is everything after it.
@@ -39,6 +49,12 @@ public:
   size_t size() const noexcept { return size_; }
   bool fits() const noexcept { return fits_; }
   std::span<const uint8_t> written() const noexcept { return to_.first(size_); }
+  // Room for what the caller writes itself; `advance` says how much that was.
+  std::span<uint8_t> rest() const noexcept { return to_.subspan(size_); }
+  void advance(size_t bytes) noexcept {
+    fits_ = fits_ && bytes <= to_.size() - size_;
+    if (fits_) size_ += bytes;
+  }
   // Removes what was written after that size.
   void cut(size_t size) noexcept {
     size_ = size;

@@ -2,8 +2,24 @@
 #include "rtlib/record/player.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace rung::runtime {
+
+bool PlayerOwner::force(Instance& instance, std::span<const core::ForcedBits> bits) {
+  instance.endForces();
+  forcing_.reset();
+  if (bits.empty()) return true;
+  auto forcing = std::make_unique<Forcing>(instance.program(), instance.context().engine, bits);
+  if (forcing->needsCode()) {
+    const std::optional<core::Code> code = codeFor(*forcing);
+    if (!code) return false;
+    forcing->setCode(*code);
+  }
+  forcing_ = std::move(forcing);
+  (void)instance.force(*forcing_);
+  return true;
+}
 
 Player::Player(Instance& instance, PlayerOwner& owner)
     : instance_(instance), owner_(owner), written_(writtenBytes(instance.program())) {
@@ -33,12 +49,19 @@ Played Player::play() {
     return Played::Part;
   }
   while (!reader_.atEnd()) {
+    const EventReader here = reader_;
     const Event event = reader_.takeEvent();
     switch (event) {
     case Event::Lost: whole_ = false; return Played::Lost;
     case Event::Anew: whole_ = false; break;
     case Event::State: return playState();
     case Event::Part: return playPart();
+    case Event::Program:
+      if (reader_.takeNumber() == instance_.program().code_hash) break;
+      if (!reader_.good()) return damaged();
+      whole_ = false;
+      reader_ = here;
+      return Played::Other;
     case Event::Repeat:
       repeats_ = reader_.takeNumber();
       if (repeats_ == 0 || !whole_) return damaged();
@@ -101,9 +124,6 @@ bool Player::takeBefore(Event event) {
   case Event::Bytes: return takeBytes();
   case Event::Stopped: instance_.setStopped(reader_.takeNumber() != 0); return reader_.good();
   case Event::Request: return takeRequest();
-  case Event::Reply:
-    if (const std::optional<core::ServiceReply> reply = takeReply()) return instance_.services().complete(*reply);
-    return false;
   case Event::Mark: {
     const std::span<const uint8_t> text = reader_.takeBytes(reader_.takeNumber());
     owner_.marked({reinterpret_cast<const char*>(text.data()), text.size()});
@@ -157,6 +177,16 @@ std::optional<core::ServiceReply> Player::takeReply() {
   return takeList(reply.results, reply.resultCount) ? std::optional(reply) : std::nullopt;
 }
 
+// Of those that follow.
+bool Player::takeReplies() {
+  while (isNext(Event::Reply)) {
+    (void)reader_.takeEvent();
+    const std::optional<core::ServiceReply> reply = takeReply();
+    if (!reply || !instance_.services().complete(*reply)) return false;
+  }
+  return true;
+}
+
 bool Player::takeRequest() {
   const uint32_t service = reader_.takeNumber32(), count = reader_.takeNumber32();
   int64_t args[RUNG_MAX_SERVICE_ARGS] = {};
@@ -170,8 +200,9 @@ bool Player::takeRequest() {
 Played Player::playPart() {
   const uint64_t kind = reader_.takeNumber();
   number_ = reader_.takeNumber32();
-  if (!reader_.good() || kind > static_cast<uint64_t>(PartKind::Halt) || !whole_) return damaged();
+  if (!reader_.good() || kind >= static_cast<uint64_t>(PartKind::PowerOff) || !whole_) return damaged();
   kind_ = static_cast<PartKind>(kind);
+  if (!takeReplies()) return damaged();
   run();
   compareOutcome();
   return reader_.good() && !failed_ ? Played::Part : damaged();
@@ -188,6 +219,7 @@ void Player::run() {
   case PartKind::SliceToFast: instance_.sliceToFast(); break;
   case PartKind::Task: (void)instance_.runTask(number_); break;
   case PartKind::Halt: (void)instance_.halt(number_); break;
+  case PartKind::PowerOff: break; // only where the control runs again
   }
   core::ServiceRequest request;
   while (instance_.services().take(request)) {
@@ -228,6 +260,9 @@ void Player::within() {
       if (isNext(Event::Bytes)) {
         (void)reader_.takeEvent();
         failed_ = failed_ || !takeBytes();
+      } else if (isNext(Event::Reply)) {
+        failed_ = failed_ || !takeReplies();
+        instance_.services().deliver();
       } else if (isNext(Event::Request)) {
         (void)reader_.takeEvent();
         failed_ = failed_ || !takeRequest();

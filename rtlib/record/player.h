@@ -2,6 +2,7 @@
 // it did then. The program may run on any engine. Not for real time.
 #pragma once
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -18,14 +19,14 @@ enum class Played : uint8_t {
   State,    // a whole state: the instance has it now
   Lost,     // events are missing, up to the next state
   End,      // of these events
-  Other,    // a state of another program: the recording continues with that one
+  Other,    // `position` is where the recording continues with another program
   NoForces, // these cells are forced from now on, which the owner's `force` has refused
   Damaged,  // impossible events, whose place `position` is; nothing after it can be played
 };
 
 // A part that has run otherwise than it was recorded.
 struct PlayedDifference {
-  enum class Kind : uint8_t { Outputs, Fault, State } kind = Kind::Outputs;
+  enum class Kind : uint8_t { Outputs, Fault, State, Requests } kind = Kind::Outputs;
   uint32_t offset = RUNG_NONE; // State: of the first byte of the block that differs; RUNG_NONE: something else does
 };
 
@@ -34,8 +35,13 @@ class PlayerOwner {
 public:
   virtual ~PlayerOwner() = default;
   // Puts exactly these forces in effect. False: it cannot.
-  virtual bool force(Instance& instance, std::span<const core::ForcedBits> bits) = 0;
+  virtual bool force(Instance& instance, std::span<const core::ForcedBits> bits);
+  // Code of the program that leaves the forced bits as they are (Forcing::needsCode). Nothing: there is none.
+  virtual std::optional<core::Code> codeFor(const Forcing& forcing) { return (void)forcing, std::nullopt; }
   virtual void marked(std::string_view text) { (void)text; }
+
+private:
+  std::unique_ptr<Forcing> forcing_;
 };
 
 class Player final : public ScheduleHooks {
@@ -75,6 +81,7 @@ private:
   bool takeSurroundings();
   bool takeForces();
   bool takeBytes();
+  bool takeReplies();
   bool takeRequest();
   std::optional<core::ServiceReply> takeReply();
   bool takeList(int64_t* values, uint32_t count);

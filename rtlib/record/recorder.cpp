@@ -60,10 +60,13 @@ void putSurroundings(EventWriter& writer, const Surroundings& of) noexcept {
 } // namespace
 
 Recorder::Recorder(const Instance& instance, RecordedBytes bytes, const RecorderOptions& options)
-    : options_(options), ring_(options.ringBytes), partBytes_(partRoom(bytes)),
-      batchBytes_(partBytes_.size() + 2 * kBatch), part_(partBytes_), batch_(batchBytes_),
-      before_(std::move(bytes.before)), withinBytes_(std::move(bytes.within)), outputs_(std::move(bytes.outputs)),
+    : stream_(options, partRoom(bytes)), bytes_(std::make_unique<RecordedBytes>(std::move(bytes))),
       nowUs_(instance.nowUs()) {}
+
+void Recorder::programChanged(std::unique_ptr<RecordedBytes>& bytes) noexcept {
+  stream_.beginAnew();
+  bytes_.swap(bytes);
+}
 
 // ---- whole states ------------------------------------------------------------------------------------------------
 
@@ -73,69 +76,34 @@ size_t Recorder::stateSize(const Instance& instance) const noexcept {
 }
 
 void Recorder::know(const Instance& instance) noexcept {
-  before_.know(instance.block().data());
-  withinBytes_.know(instance.block().data());
-  outputs_.know(instance.block().data());
+  bytes_->before.know(instance.block().data());
+  bytes_->within.know(instance.block().data());
+  bytes_->outputs.know(instance.block().data());
   nowUs_ = instance.nowUs();
   stopped_ = instance.stopped();
   faulted_ = instance.faulted();
   forced_ = instance.forcedBits();
-  for (replies_ = 0; instance.services().undelivered(replies_) != nullptr;) ++replies_;
 }
 
-// What has come from outside before it is written as well, so that a player can compare. Without room for a state the
-// recording continues as it was.
 void Recorder::putState(const Instance& instance) noexcept {
+  if (bytes_ == nullptr) return;
   constexpr size_t kOther = 256, kForce = 12; // of the other events
-  keepBefore();
   const size_t size = stateSize(instance);
-  const size_t room = size + kOther + kForce * instance.forcedBits().size() + outputs_.listed();
-  const std::span<uint8_t> to = ring_.reserve(room);
-  if (to.empty()) return;
-  EventWriter writer(to);
-  if (!whole_) writer.put(lost_ ? Event::Lost : Event::Anew);
-  putSurroundings(writer, instance.surroundings());
-  writer.put(Event::Outputs);
-  outputs_.list(writer);
-  putForces(writer, instance.forcedBits());
-  writer.put(Event::State, size);
-  core::Saver saver(to.subspan(writer.size()));
-  (void)instance.save(saver, false);
-  ring_.commit(writer.size() + size);
-  know(instance);
-  stateUs_ = nowUs_ + options_.stateEveryUs;
-  whole_ = true;
-  lost_ = false;
-  last_.plain = false; // a recording may be played from here
+  const size_t room = size + kOther + kForce * instance.forcedBits().size() + bytes_->outputs.listed();
+  const auto put = [&](EventWriter& writer) noexcept {
+    putSurroundings(writer, instance.surroundings());
+    writer.put(Event::Outputs);
+    bytes_->outputs.list(writer);
+    putForces(writer, instance.forcedBits());
+    writer.put(Event::State, size);
+    core::Saver saver(writer.rest());
+    (void)instance.save(saver, false);
+    writer.advance(size);
+  };
+  if (stream_.putState(instance.program().code_hash, instance.nowUs(), room, put)) know(instance);
 }
 
-void Recorder::keepBefore() noexcept {
-  if (!whole_) return;
-  if (!part_.fits()) return lose();
-  if (part_.size() != 0) {
-    putRepeats();
-    batch_.putBytes(part_.written());
-    part_.cut(0);
-    last_.plain = false;
-  }
-  flush();
-}
-
-void Recorder::lose() noexcept {
-  lost_ = lost_ || whole_;
-  whole_ = false;
-  last_.plain = false;
-  repeats_ = 0;
-  part_.cut(0);
-  batch_.cut(0);
-}
-
-void Recorder::changedWhole(const Instance&) noexcept {
-  flush();
-  whole_ = false;
-  part_.cut(0);
-  replies_ = 0;
-}
+void Recorder::changedWhole(const Instance&) noexcept { stream_.beginAnew(); }
 
 // ---- before a part -----------------------------------------------------------------------------------------------
 
@@ -144,37 +112,24 @@ void Recorder::begins(const Instance& instance, PartKind kind, uint32_t number) 
   inPart_ = true;
   within_ = 0;
   putBefore(instance);
-  const bool isStateDue = !whole_ || instance.nowUs() >= stateUs_;
-  if (isStateDue && instance.atListStart()) putState(instance);
-  if (!whole_) return;
-  if (kind != PartKind::Task && kind != PartKind::Halt) replies_ = 0; // they are delivered
-  now_ = {kind, number, part_.size() == 0};
-  plainSize_ = 0;
-  if (!now_.plain) putPart();
-}
-
-// Only when there is something else to write: most parts are as the one before.
-void Recorder::putPart() noexcept {
-  if (plainSize_ != 0) return;
-  part_.put(Event::Part, static_cast<uint8_t>(now_.kind), now_.number == RUNG_NONE ? 0 : now_.number);
-  plainSize_ = part_.size();
+  if (stream_.isStateDue(instance.nowUs()) && instance.atListStart()) putState(instance);
+  if (!stream_.whole()) return;
+  stream_.begin(kind, number);
 }
 
 void Recorder::putBefore(const Instance& instance) noexcept {
-  if (!whole_) return;
-  if (instance.nowUs() != nowUs_) part_.put(Event::Clock, zigzag(instance.nowUs() - nowUs_));
-  if (instance.stopped() != stopped_) part_.put(Event::Stopped, stopped_ = instance.stopped());
-  if (!sameForces(instance.forcedBits(), forced_)) putForces(part_, forced_ = instance.forcedBits());
-  putChanges(instance, before_);
-  putChanges(instance, withinBytes_);
-  for (; const core::ServiceReply* reply = instance.services().undelivered(replies_); ++replies_)
-    putReply(Event::Reply, *reply);
+  if (!stream_.whole()) return;
+  if (instance.nowUs() != nowUs_) stream_.events().put(Event::Clock, zigzag(instance.nowUs() - nowUs_));
+  if (instance.stopped() != stopped_) stream_.events().put(Event::Stopped, stopped_ = instance.stopped());
+  if (!sameForces(instance.forcedBits(), forced_)) putForces(stream_.events(), forced_ = instance.forcedBits());
+  putChanges(instance, bytes_->before);
+  putChanges(instance, bytes_->within);
 }
 
 void Recorder::putChanges(const Instance& instance, WatchedBytes& watched) noexcept {
   const uint8_t* block = instance.block().data();
   if (watched.isAsKnown(block)) return;
-  ByteRuns runs(part_, block);
+  ByteRuns runs(stream_.events(), block);
   watched.compare(block, [&](uint32_t offset) noexcept {
     putWithin();
     runs.add(offset);
@@ -183,24 +138,24 @@ void Recorder::putChanges(const Instance& instance, WatchedBytes& watched) noexc
 
 void Recorder::putReply(Event event, const core::ServiceReply& reply) noexcept {
   const uint32_t count = std::min(reply.resultCount, RUNG_MAX_SERVICE_ARGS);
-  part_.put(event, reply.ticket, reply.state, count);
-  for (uint32_t i = 0; i < count; ++i) part_.putNumber(zigzag(reply.results[i]));
+  stream_.events().put(event, reply.ticket, reply.state, count);
+  for (uint32_t i = 0; i < count; ++i) stream_.events().putNumber(zigzag(reply.results[i]));
 }
 
 void Recorder::surroundingsChanged(const Instance& instance) noexcept {
-  if (whole_) putSurroundings(part_, instance.surroundings());
+  if (stream_.whole()) putSurroundings(stream_.events(), instance.surroundings());
 }
 
 void Recorder::written(const Instance& instance, uint32_t offset, uint32_t bytes) noexcept {
-  if (!whole_) return;
-  part_.put(Event::Bytes, offset, bytes);
-  part_.putBytes(instance.block().subspan(offset, bytes));
+  if (!stream_.whole()) return;
+  stream_.events().put(Event::Bytes, offset, bytes);
+  stream_.events().putBytes(instance.block().subspan(offset, bytes));
 }
 
 void Recorder::mark(std::string_view text) noexcept {
-  if (!whole_) return;
-  part_.put(Event::Mark, text.size());
-  part_.putBytes({reinterpret_cast<const uint8_t*>(text.data()), text.size()});
+  if (!stream_.whole()) return;
+  stream_.events().put(Event::Mark, text.size());
+  stream_.events().putBytes({reinterpret_cast<const uint8_t*>(text.data()), text.size()});
 }
 
 // ---- within a part -----------------------------------------------------------------------------------------------
@@ -209,12 +164,12 @@ void Recorder::mark(std::string_view text) noexcept {
 void Recorder::withinBegins(const Instance& instance) noexcept { enterWithin(instance); }
 
 void Recorder::withinEnded(const Instance& instance) noexcept {
-  if (whole_) putChanges(instance, withinBytes_);
+  if (stream_.whole()) putChanges(instance, bytes_->within);
   inWithin_ = depth_ != 0;
 }
 
 void Recorder::enterWithin(const Instance& instance) noexcept {
-  withinBytes_.knowWritten(instance.block().data());
+  if (stream_.whole()) bytes_->within.knowWritten(instance.block().data());
   inWithin_ = true;
   withinPut_ = false;
   number_ = within_++;
@@ -223,29 +178,36 @@ void Recorder::enterWithin(const Instance& instance) noexcept {
 // The event that says where the following ones happen, before the first of them.
 void Recorder::putWithin() noexcept {
   if (!inWithin_ || withinPut_) return;
-  putPart();
-  part_.put(Event::Within, number_);
+  stream_.putPart();
+  stream_.events().put(Event::Within, number_);
   withinPut_ = true;
 }
 
 void Recorder::beginsWithin(const Instance& instance, uint32_t task) noexcept {
   ++depth_;
-  if (!whole_) return;
-  putChanges(instance, withinBytes_);
+  if (!stream_.whole()) return;
+  putChanges(instance, bytes_->within);
   putWithin();
-  part_.put(Event::Task, task);
+  stream_.events().put(Event::Task, task);
   inWithin_ = false;
+}
+
+void Recorder::replied(const Instance&, const core::ServiceReply& reply) noexcept {
+  if (!stream_.whole()) return;
+  if (inPart_) stream_.putPart();
+  putWithin();
+  putReply(Event::Reply, reply);
 }
 
 void Recorder::requested(const Instance& instance, const core::ServiceRequest& request,
                          const core::ServiceReply* reply) noexcept {
-  if (!whole_) return;
+  if (!stream_.whole()) return;
   const bool isControls = request.service >= instance.program().service_count;
-  if (!isControls && reply != nullptr) putPart();
+  if (!isControls && reply != nullptr) stream_.putPart();
   if (isControls) {
     putWithin();
-    part_.put(Event::Request, request.service, request.argCount);
-    for (uint32_t i = 0; i < request.argCount; ++i) part_.putNumber(zigzag(request.args[i]));
+    stream_.events().put(Event::Request, request.service, request.argCount);
+    for (uint32_t i = 0; i < request.argCount; ++i) stream_.events().putNumber(zigzag(request.args[i]));
   }
   if (reply != nullptr) putReply(Event::Answer, *reply);
 }
@@ -258,54 +220,27 @@ void Recorder::ended(const Instance& instance) noexcept {
     return enterWithin(instance);
   }
   inPart_ = false;
-  before_.knowWritten(instance.block().data());
-  withinBytes_.knowWritten(instance.block().data());
   nowUs_ = instance.nowUs();
-  if (!whole_) return;
-  if (part_.size() != plainSize_) part_.put(Event::Ended);
+  if (!stream_.whole()) return;
+  bytes_->before.knowWritten(instance.block().data());
+  bytes_->within.knowWritten(instance.block().data());
+  if (stream_.hasEventsWithin()) stream_.events().put(Event::Ended);
   putOutcome(instance);
-  keepPart();
+  stream_.end(faulted_);
 }
 
 void Recorder::putOutcome(const Instance& instance) noexcept {
   const uint8_t* block = instance.block().data();
-  if (!outputs_.isAsKnown(block)) {
-    outputs_.know(block);
-    putPart();
-    part_.put(Event::Hash, outputs_.hash(block));
+  if (!bytes_->outputs.isAsKnown(block)) {
+    bytes_->outputs.know(block);
+    stream_.putPart();
+    stream_.events().put(Event::Hash, bytes_->outputs.hash(block));
   }
   if (instance.faulted() == faulted_) return;
   faulted_ = instance.faulted();
   const rung_fault& fault = instance.fault();
-  putPart();
-  if (faulted_) part_.put(Event::Fault, fault.code, fault.rung, fault.line, fault.task);
-}
-
-void Recorder::keepPart() noexcept {
-  if (part_.size() == 0 && now_ == last_) {
-    ++repeats_;
-    return;
-  }
-  putPart();
-  if (!part_.fits()) return lose();
-  putRepeats();
-  last_ = {now_.kind, now_.number, true};
-  batch_.putBytes(part_.written());
-  part_.cut(0);
-  if (batch_.size() >= kBatch || faulted_) flush();
-}
-
-void Recorder::putRepeats() noexcept {
-  if (repeats_ != 0) batch_.put(Event::Repeat, repeats_);
-  repeats_ = 0;
-}
-
-void Recorder::flush() noexcept {
-  putRepeats();
-  if (batch_.size() == 0) return;
-  const bool kept = ring_.push(batch_.written());
-  batch_.cut(0);
-  if (!kept) lose();
+  stream_.putPart();
+  if (faulted_) stream_.events().put(Event::Fault, fault.code, fault.rung, fault.line, fault.task);
 }
 
 } // namespace rung::runtime

@@ -6,12 +6,12 @@
 // ring is left out, which the recording says, and the next whole state begins it anew.
 #pragma once
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string_view>
 #include <vector>
 
-#include "rtlib/core/handover.h"
-#include "rtlib/record/events.h"
+#include "rtlib/record/part_stream.h"
 #include "rtlib/record/watched_bytes.h"
 #include "rtlib/run/instance.h"
 
@@ -22,11 +22,6 @@ struct RecordedBytes {
   WatchedBytes before;  // written between two parts only
   WatchedBytes within;  // written by hooks and latches, too
   WatchedBytes outputs; // whose contents are compared after each part when the recording is played
-};
-
-struct RecorderOptions {
-  size_t ringBytes = size_t{1} << 20; // a power of two, at least four whole states
-  int64_t stateEveryUs = 10'000'000;  // of the program's clock, between two states
 };
 
 class Recorder final : public OutsideWatch {
@@ -42,67 +37,44 @@ public:
   void withinEnded(const Instance& instance) noexcept override;
   void requested(const Instance& instance, const core::ServiceRequest& request,
                  const core::ServiceReply* reply) noexcept override;
+  void replied(const Instance& instance, const core::ServiceReply& reply) noexcept override;
   void written(const Instance& instance, uint32_t offset, uint32_t bytes) noexcept override;
   void surroundingsChanged(const Instance& instance) noexcept override;
   void changedWhole(const Instance& instance) noexcept override;
+  // Another program runs; `bytes` are for it, and receive those of the former one. Null: nothing is recorded of it.
+  void programChanged(std::unique_ptr<RecordedBytes>& bytes) noexcept;
   // Between two parts.
   void mark(std::string_view text) noexcept;
   // Makes all parts so far readable.
-  void flush() noexcept;
+  void flush() noexcept { stream_.flush(); }
 
   // ---- the thread that writes the recording ----
 
-  // Records of whole events, one after the other.
-  core::ByteRing& ring() noexcept { return ring_; }
+  core::ByteRing& ring() noexcept { return stream_.ring(); }
+  PartStream& stream() noexcept { return stream_; }
 
 private:
-  static constexpr size_t kBatch = 1024; // bytes that are made readable together
-
-  struct Part {
-    PartKind kind = PartKind::Scan;
-    uint32_t number = RUNG_NONE;
-    // Of the present one: it has no other event. Of the last one: such a part is its repetition.
-    bool plain = false;
-    bool operator==(const Part&) const = default;
-  };
-
   void beginsWithin(const Instance& instance, uint32_t task) noexcept;
   void putState(const Instance& instance) noexcept;
-  void keepBefore() noexcept;
   size_t stateSize(const Instance& instance) const noexcept;
   void know(const Instance& instance) noexcept;
   void putBefore(const Instance& instance) noexcept;
-  void putPart() noexcept;
   void putChanges(const Instance& instance, WatchedBytes& watched) noexcept;
   void enterWithin(const Instance& instance) noexcept;
   void putWithin() noexcept;
   void putReply(Event event, const core::ServiceReply& reply) noexcept;
   void putOutcome(const Instance& instance) noexcept;
-  void keepPart() noexcept;
-  void putRepeats() noexcept;
-  void lose() noexcept;
 
-  RecorderOptions options_;
-  core::ByteRing ring_;
-  std::vector<uint8_t> partBytes_, batchBytes_;
-  EventWriter part_;  // the events of the part, and those since the last one
-  EventWriter batch_; // parts that are not readable yet
-  WatchedBytes before_, withinBytes_, outputs_;
+  PartStream stream_;
+  std::unique_ptr<RecordedBytes> bytes_; // null: for another program
 
-  bool whole_ = false;  // all since the last state is recorded
-  bool lost_ = false;   // something was lost since then
-  int64_t stateUs_ = 0; // when the next state is due
   // As recorded last:
   int64_t nowUs_ = 0;
   bool stopped_ = false;
   bool faulted_ = false;
   std::span<const core::ForcedBits> forced_;
 
-  uint32_t replies_ = 0; // that wait and are written
   bool inPart_ = false;
-  Part now_, last_;
-  size_t plainSize_ = 0; // of the events up to that of the part itself; 0: it is not written
-  uint64_t repeats_ = 0; // of the last one
   // Hooks and latches of the part. After a run of a task within one, the rest of it counts as another one.
   uint32_t within_ = 0; // so far
   uint32_t number_ = 0; // of the present one

@@ -97,6 +97,15 @@ void Instance::setRunnerHooks() {
   surroundingsChanged();
 }
 
+void Instance::setOutsideWatch(OutsideWatch* watch) noexcept {
+  outside_ = watch;
+  const auto replied = [](void* self, const core::ServiceReply& reply) {
+    const auto& instance = *static_cast<Instance*>(self);
+    instance.outside_->replied(instance, reply);
+  };
+  port_->services.setObserver(watch == nullptr ? nullptr : +replied, this);
+}
+
 void Instance::surroundingsChanged() noexcept {
   if (outside_ != nullptr) outside_->surroundingsChanged(*this);
 }

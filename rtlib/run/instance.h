@@ -65,8 +65,9 @@ enum class PartKind : uint8_t {
   Slice,
   Fast,
   SliceToFast,
-  Task, // one run of a task
-  Halt, // it stops with a fault
+  Task,     // one run of a task
+  Halt,     // it stops with a fault
+  PowerOff, // its regular power-off begins
 };
 
 // An observer of everything that comes to a program from outside, in its order. It must not change the instance, and
@@ -74,8 +75,7 @@ enum class PartKind : uint8_t {
 class OutsideWatch {
 public:
   virtual ~OutsideWatch() = default;
-  // Before and after a part. `number`: of the task or the fault, else RUNG_NONE. Replies that wait are delivered after
-  // `begins`.
+  // Before and after a part. `number`: of the task or the fault, else RUNG_NONE.
   virtual void begins(const Instance& instance, PartKind kind, uint32_t number) noexcept = 0;
   virtual void ended(const Instance& instance) noexcept = 0;
   // Before and after a hook of the schedule or of a fault, and the copying of a run's inputs.
@@ -84,6 +84,8 @@ public:
   // A request, before it is queued; `reply`, if it is not null, answers it at once or says that it is kept.
   virtual void requested(const Instance& instance, const core::ServiceRequest& request,
                          const core::ServiceReply* reply) noexcept = 0;
+  // The part, or a hook in it, finds this reply.
+  virtual void replied(const Instance& instance, const core::ServiceReply& reply) noexcept = 0;
   // The owner has written there, between two parts.
   virtual void written(const Instance& instance, uint32_t offset, uint32_t bytes) noexcept = 0;
   // The result of Instance::surroundings is another one.
@@ -126,8 +128,8 @@ public:
   }
   // Asks ScheduleHooks::works again, because its result has changed. Not while the program runs.
   void worksChanged() { setRunnerHooks(); }
-  void setTaskWatch(TaskWatch* watch);                                     // null: none, which costs nothing
-  void setOutsideWatch(OutsideWatch* watch) noexcept { outside_ = watch; } // null: none
+  void setTaskWatch(TaskWatch* watch);                // null: none, which costs nothing
+  void setOutsideWatch(OutsideWatch* watch) noexcept; // null: none
   Surroundings surroundings() const {
     return {.works = hooks_ != nullptr ? hooks_->works() : 0,
             .latches = latching_ && hooks_ != nullptr,
@@ -158,8 +160,8 @@ public:
   // The state between two scans, with everything on which further scans depend except the control, its host and the
   // code of forces: memory with the compiler's slots, clock, fault, runs that are cut into parts, tickets, requests and
   // replies. The same program has the same states on every engine and machine. `save` is for the scan thread and
-  // allocates nothing; false: within a scan. `waiting`: with the requests that the host has not taken, which it may be
-  // taking meanwhile only if they are left out.
+  // allocates nothing; false: within a scan. `waiting`: with requests that the host has not taken and replies that the
+  // program has not found, which may change meanwhile only if they are left out.
   bool save(core::Saver& saver, bool waiting = true) const noexcept;
   // Counts of lost messages and refused requests begin at 0 then. Nothing else may be using the host's side of the
   // queues, whose messages are dropped.

@@ -70,7 +70,7 @@ FOREIGN = {
     "pugixml.hpp": ("tools/rungc",),
     "toml++/": ("rtlib/text",),
     "utf8proc.h": ("ir/support",),
-    "zlib.h": ("rtlib/load", "rtlib/retain", "compiler"),
+    "zlib.h": ("rtlib/load", "rtlib/retain", "rtlib/record", "compiler"),
     "sodium.h": ("rtlib/load", "rtlib/retain", "machine/control", "machine/compile"),
     "gtest/": (),
     "gmock/": (),

@@ -45,8 +45,8 @@ public:
   // Parts that have run at the present position.
   uint64_t part() const { return part_; }
   // The program in its state at the present position. To be read only.
-  const runtime::Instance& instance() const { return stage().instance(); }
-  const compiler::Compiled& compiled() const { return stage().compiled(); }
+  const runtime::Instance& instance() const { return stages_[stageNumber_]->player().instance(); }
+  const compiler::Compiled& compiled() const { return stages_[stageNumber_]->compiled(); }
   uint32_t programNumber() const { return stageNumber_; } // in Recording::programs
   // The first part that can be reached.
   uint64_t firstPart() const { return contents_.states.front().part; }
@@ -77,7 +77,6 @@ private:
       : recording_(recording), options_(options), contents_(recording), stages_(recording.programs.size()) {}
 
   Stage& stage() { return *stages_[stageNumber_]; }
-  const Stage& stage() const { return *stages_[stageNumber_]; }
   std::span<const uint8_t> events() const { return recording_.segments[segment_].events; }
   size_t position() const;
   Result<void> useStage(uint32_t number);
@@ -88,7 +87,7 @@ private:
   bool nextSegment();
   bool otherProgram();
   void keep();
-  std::optional<Moment> present() const;
+  std::optional<Moment> present();
   void noteDifference();
   void takeSent();
 

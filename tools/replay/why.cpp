@@ -319,8 +319,9 @@ private:
     constexpr size_t kFew = 3;
     const std::string symbol = " " + name.substr(0, name.find(' ')) + " ";
     std::vector<std::string> sets;
-    for (const Note& note : past_.recording().notes) {
-      if (note.part + 1 != part || note.text.find("expect") != std::string::npos) continue;
+    for (const Landmark& note : past_.contents().landmarks) {
+      if (note.kind != Landmark::Kind::Note || note.part + 1 != part || note.text.find("expect") != std::string::npos)
+        continue;
       if (note.text.find(symbol) != std::string::npos) return note.text;
       if (note.text.find("set ") != std::string::npos) sets.push_back(note.text);
     }

@@ -18,6 +18,7 @@ namespace {
 
 struct ReplayOptions {
   std::string file;
+  SourceOptions source; // of the program, which the recording may lack
   std::optional<uint64_t> at;
   std::vector<std::string> show;
   std::string find;
@@ -39,12 +40,8 @@ void catchSignals() {
 }
 
 // A scenario is run and recorded in memory. On failure nothing, and `status` says why.
-std::optional<replay::Recording> openRecording(const ReplayOptions& options, int& status) {
-  if (!options.file.ends_with(".scn")) {
-    status = usageError(fmt::format("'{}' is not a scenario", options.file));
-    return std::nullopt;
-  }
-  Result<scenario::Scenario> scenario = scenario::readScenario(options.file);
+std::optional<replay::Recording> recordingOf(const std::string& file, int& status) {
+  Result<scenario::Scenario> scenario = scenario::readScenario(file);
   if (!scenario.ok()) {
     status = environmentError(scenario.error());
     return std::nullopt;
@@ -53,12 +50,32 @@ std::optional<replay::Recording> openRecording(const ReplayOptions& options, int
   Result<replay::RecordedScenario> recorded =
       replay::recordScenario(scenario.value(), {.engines = {compiler::EngineKind::Interp}});
   if (!recorded.ok()) {
-    status = environmentError(fmt::format("{}: {}", options.file, recorded.error()));
+    status = environmentError(fmt::format("{}: {}", file, recorded.error()));
     return std::nullopt;
   }
   for (const scenario::Problem& problem : recorded.value().result.problems)
     fmt::print("{}\n", scenario::textOf(problem));
   return std::move(recorded.value().recording);
+}
+
+std::optional<replay::Recording> openRecording(ReplayOptions& options, int& status) {
+  if (options.file.ends_with(".scn")) return recordingOf(options.file, status);
+  std::vector<std::unique_ptr<compiler::Compiled>> known;
+  SourceManager sources;
+  if (!options.source.files.empty()) {
+    compiler::CompileRequest request;
+    request.marks = request.keepBuilt = true;
+    std::optional<compiler::Compiled> compiled = compileSources(sources, options.source, std::move(request), status);
+    if (!compiled) return std::nullopt;
+    known.push_back(std::make_unique<compiler::Compiled>(std::move(*compiled)));
+  }
+  Result<replay::Recording> recording = replay::readRecording(options.file, std::move(known));
+  if (!recording.ok()) {
+    status = environmentError(recording.error());
+    return std::nullopt;
+  }
+  for (const std::string& problem : recording.value().problems) fmt::print(stderr, "rungc: {}\n", problem);
+  return std::move(recording).value();
 }
 
 int runAsked(const ReplayOptions& options, replay::Past& past, replay::Console& console) {
@@ -93,7 +110,7 @@ int runAsked(const ReplayOptions& options, replay::Past& past, replay::Console& 
   return kOk;
 }
 
-int runReplay(const ReplayOptions& options) {
+int runReplay(ReplayOptions& options) {
   int status = kOk;
   const std::optional<replay::Recording> recording = openRecording(options, status);
   if (!recording) return status;
@@ -112,10 +129,14 @@ int runReplay(const ReplayOptions& options) {
 } // namespace
 
 void addReplay(CommandLine& app, int& status) {
-  Command command =
-      app.add("replay", "Go through the past of a program, forwards and backwards: a scenario, as it ran");
+  Command command = app.add("replay", "Go through the past of a program, forwards and backwards");
   auto options = std::make_shared<ReplayOptions>();
-  command.option("RECORDING", options->file, "A scenario, which is run and recorded").required();
+  command
+      .option("RECORDING", options->file,
+              "The folder of a recording, one of its segments, or a scenario, which is run and recorded")
+      .required();
+  command.option("--source", options->source.files,
+                 "Sources of the program, if the recording does not have it; their hash must be that of the recording");
   command.option("--at", options->at, "Begin at the end of this scan; default: the last one, or where it failed");
   command.option("--show", options->show, "Print the values of these names there").oneValue();
   command.option("--find", options->find, "Print the scans after which this condition begins to hold");

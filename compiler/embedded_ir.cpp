@@ -84,7 +84,7 @@ bool takeNumber(std::string_view& line, uint32_t& number) {
   return true;
 }
 
-// False: a line is no mark of this module.
+// False: a line is not a mark of this module.
 bool takeMark(std::string_view line, const ir::Module& module, ir::Marks& marks) {
   uint32_t routine = 0, rung = 0, kind = 0;
   ir::Mark mark;

@@ -55,7 +55,7 @@ public:
   std::string goTo(uint64_t part);
   // Goes to the first part after which the clock is at least at `us`, or to the last one.
   std::string goToTime(int64_t us);
-  // Goes on by one part. False: the recording has ended, or cannot be played further; `problem` says why.
+  // Continues by one part. False: the recording has ended, or cannot be played further; `problem` says why.
   bool next();
   const std::string& problem() const { return problem_; } // "": the end
 
@@ -67,6 +67,8 @@ public:
   // The state before that part, of the same program; empty: the program was started, or a state loaded, in between.
   std::span<const uint8_t> blockBefore() const { return blockBefore_; }
 
+  // Sees what comes to the program from outside while `next` runs it, in the program of now. Null: none.
+  void watch(runtime::OutsideWatch* watch) { stage().player().instance().setOutsideWatch(watch); }
   // The messages that the program has sent in the last part that `next` has run.
   std::span<const rung_message> sent() const { return sent_; }
   // Those found so far where it has been played; the first ones.

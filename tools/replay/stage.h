@@ -16,7 +16,7 @@
 
 namespace rung::replay {
 
-// A moment between two parts, from which playing can go on. It belongs to one program.
+// A moment between two parts, from which playing can continue. It belongs to one program.
 struct Moment {
   uint32_t program = 0;
   uint32_t segment = 0;

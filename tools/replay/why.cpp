@@ -441,7 +441,7 @@ private:
     add(operands, leaves, facts, runNumber);
     if (!operands.hasNames()) addDecider(operands, facts, runNumber);
     findSince(operands.all, part, facts);
-    // The one that changed last is the cause of the change; the chain goes on there.
+    // The one that changed last is the cause of the change; the chain continues there.
     std::ranges::stable_sort(operands.all, [](const Operand& a, const Operand& b) {
       return std::tuple(a.rank, a.since, a.leaf.alone) > std::tuple(b.rank, b.since, b.leaf.alone);
     });

@@ -102,8 +102,8 @@ int runAsked(const ReplayOptions& options, replay::Past& past, replay::Console& 
     fmt::print("{}\n", text.value());
   }
   if (!options.exported.empty()) {
-    const std::string problem = console.exportTrace(options.exported, options.from.value_or(past.firstPart()),
-                                                    options.to.value_or(past.contents().parts), options.watch);
+    const std::string problem = console.exportTo(options.exported, options.from.value_or(past.firstPart()),
+                                                 options.to.value_or(past.contents().parts), options.watch);
     if (!problem.empty()) return usageError(problem);
     fmt::print("wrote {}\n", options.exported);
   }
@@ -142,7 +142,8 @@ void addReplay(CommandLine& app, int& status) {
   command.option("--find", options->find, "Print the scans after which this condition begins to hold");
   command.option("--most", options->most, "At most so many scans are found").showDefault();
   command.option("--why", options->why, "NAME or NAME@SCAN: print the chain from the value back to what it came from");
-  command.option("--export", options->exported, "Write values of each scan to FILE.vcd or FILE.csv");
+  command.option("--export", options->exported,
+                 "Write values of each scan to FILE.vcd or FILE.csv, or a scenario that does the same to FILE.scn");
   command.option("--from", options->from, "First scan of --export");
   command.option("--to", options->to, "Last scan of --export");
   command.option("--watch", options->watch, "Names for --export; default: all that the rungs use").oneValue();

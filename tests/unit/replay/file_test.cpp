@@ -16,6 +16,7 @@
 #include "tools/replay/console.h"
 #include "tools/replay/past.h"
 #include "tools/replay/record_run.h"
+#include "tools/replay/scenario_file.h"
 #include "tools/scenario/in_project.h"
 
 namespace rung::replay {
@@ -195,6 +196,28 @@ TEST_F(Damage, ReorderedEventsDoNoHarm) {
     (void)past.value()->goTo(past.value()->contents().parts);
     (void)past.value()->flow();
   }
+}
+
+// ---- as scenarios ------------------------------------------------------------------------------------------------
+
+TEST(ScenarioFile, DoesTheSame) {
+  Result<RecordedScenario> recorded =
+      recordScenario(read("examples/gsk-panel/panel.scn"), {.engines = {compiler::EngineKind::Interp}});
+  ASSERT_TRUE(recorded.ok());
+  const auto past = open(recorded.value().recording);
+  const TemporaryFolder folder;
+  const Result<std::string> text = scenarioOf(*past, folder / "panel.scn", past->firstPart(), 150);
+  ASSERT_TRUE(text.ok()) << text.error();
+  EXPECT_THAT(text.value(), HasSubstr("expect "));
+  EXPECT_THAT(text.value(), HasSubstr("set "));
+  const scenario::Scenario scenario = scenario::parse(folder / "panel.scn", text.value());
+  const scenario::RunResult result = scenario::run(scenario, {.engines = {compiler::EngineKind::Interp}});
+  EXPECT_TRUE(result.passed) << text.value() << [&] {
+    std::string problems = result.environment;
+    for (const scenario::Problem& problem : result.problems) problems += scenario::textOf(problem) + "\n";
+    return problems;
+  }();
+  EXPECT_EQ(result.scans, 150u);
 }
 
 // ---- a host ------------------------------------------------------------------------------------------------------

@@ -31,6 +31,7 @@ Player::~Player() { instance_.setHooks(nullptr); }
 void Player::setEvents(std::span<const uint8_t> events) {
   reader_ = EventReader(events);
   failed_ = false;
+  repeats_ = 0;
 }
 
 Played Player::damaged() {

@@ -57,6 +57,10 @@ public:
   size_t position() const { return reader_.position(); }
   // Runs up to the end of the next part, or of a whole state.
   Played play();
+  // How often the last part still follows as it was, with no event of its own.
+  uint64_t repeatsLeft() const { return repeats_; }
+  PartKind lastKind() const { return kind_; }
+  uint32_t lastNumber() const { return number_; } // of its task or fault
   // What was different in the last call; nothing if all was as recorded.
   const std::optional<PlayedDifference>& difference() const { return difference_; }
   // The state that the recording has at this place is compared with that of the instance, if there is one.

@@ -17,11 +17,14 @@ struct RunOptions {
   compiler::EngineOptions engine;
   bool instrument = false; // the program has profile counters
   bool strict = false;
+  bool marks = false;                // the program is compiled with marks (compiler::CompileRequest::marks)
   std::vector<std::string> programs; // if not empty, they replace the scenario's program statement
   EngineStore* store = nullptr;      // keeps engines for later scenarios; must outlive the run
   // Called between the start and the first statement, to attach observers, which must outlive the run. Returns "" or
   // why the scenario cannot run.
   std::function<std::string(Session&, const compiler::Compiled&)> started;
+  // Called after the last statement, or the one that failed. May be empty.
+  std::function<void(Session&)> ended;
 };
 
 struct RunResult {

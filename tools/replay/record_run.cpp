@@ -1,0 +1,141 @@
+// Records sessions (see record_run.h).
+#include "tools/replay/record_run.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <stdexcept>
+#include <utility>
+
+#include "compiler/embedded_ir.h"
+#include "tools/scenario/compile_step.h"
+#include "tools/scenario/statements.h"
+
+namespace rung::replay {
+namespace {
+
+using runtime::BlockBytes;
+
+// The simulated control writes in hooks and between parts; of a byte that the program only writes, too.
+runtime::RecordedBytes recordedBytes(const rung_program& program) {
+  const BlockBytes written = runtime::writtenBytes(program);
+  BlockBytes compared = runtime::readBytes(program);
+  for (size_t i = 0; i < written.size(); ++i) compared[i] = compared[i] || written[i];
+  return {.before = runtime::WatchedBytes(program), .within = {program, compared}, .outputs = {program, written}};
+}
+
+constexpr size_t kRing = size_t{1} << 24;
+constexpr uint64_t kScansBetween = 512; // blocks of files
+
+} // namespace
+
+SessionRecorder::SessionRecorder(scenario::Session& session)
+    : instance_(&session.instance()),
+      recorder_(std::make_unique<runtime::Recorder>(*instance_, recordedBytes(instance_->program()),
+                                                    runtime::RecorderOptions{.ringBytes = kRing})) {
+  recording_.segments.emplace_back();
+  instance_->setOutsideWatch(recorder_.get());
+}
+
+SessionRecorder::SessionRecorder(scenario::Session& session, const std::string& folder,
+                                 const compiler::Compiled& program)
+    : SessionRecorder(session) {
+  const runtime::RecordingOptions options{.folder = folder, .limitBytes = UINT64_MAX};
+  writer_ = std::make_unique<runtime::RecordingWriter>(recorder_->stream(), runtime::RecordingMode::Bytes, options);
+  add(program);
+}
+
+SessionRecorder::~SessionRecorder() {
+  if (instance_ != nullptr) (void)take();
+}
+
+void SessionRecorder::add(const compiler::Compiled& program) {
+  if (writer_ == nullptr) return;
+  const std::string text = compiler::irText(program);
+  writer_->addProgram(program.codeHash, {reinterpret_cast<const uint8_t*>(text.data()), text.size()});
+}
+
+// The writer does without a thread of its own: the clock of a session runs far ahead of it.
+void SessionRecorder::drain() {
+  if (writer_ && ++scans_ % kScansBetween != 0) return;
+  recorder_->flush();
+  if (writer_) return writer_->look();
+  core::ByteRing& ring = recorder_->ring();
+  std::vector<uint8_t>& events = recording_.segments.back().events;
+  for (auto record = ring.front(); !record.empty(); record = ring.front()) {
+    events.insert(events.end(), record.begin(), record.end());
+    ring.pop();
+  }
+}
+
+void SessionRecorder::executing(const scenario::Session&, const scenario::Statement& statement) {
+  recorder_->mark(statement.file.empty() ? statement.text
+                                         : fmt::format("{}:{}: {}", statement.file, statement.line, statement.text));
+}
+
+void SessionRecorder::replaced(const scenario::Session& session, const scenario::NextProgram& next) {
+  bytes_ = std::make_unique<runtime::RecordedBytes>(recordedBytes(session.instance().program()));
+  recorder_->programChanged(bytes_);
+  if (writer_ && next.compiled)
+    if (const Result<const compiler::Compiled*> program = next.compiled(); program.ok()) add(*program.value());
+}
+
+Recording SessionRecorder::take() {
+  scans_ = kScansBetween - 1;
+  drain();
+  writer_.reset();
+  instance_->setOutsideWatch(nullptr);
+  instance_ = nullptr;
+  return std::move(recording_);
+}
+
+void recordInto(const std::string& folder, scenario::RunOptions& options) {
+  auto recorder = std::make_shared<std::unique_ptr<SessionRecorder>>();
+  const auto started = std::exchange(options.started, {});
+  const auto ended = std::exchange(options.ended, {});
+  options.marks = true;
+  options.started = [=](scenario::Session& session, const compiler::Compiled& program) -> std::string {
+    try {
+      *recorder = std::make_unique<SessionRecorder>(session, folder, program);
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    session.addObserver(**recorder);
+    return started ? started(session, program) : std::string();
+  };
+  options.ended = [=](scenario::Session& session) {
+    if (*recorder) (void)(*recorder)->take();
+    if (ended) ended(session);
+  };
+}
+
+Result<RecordedScenario> recordScenario(const scenario::Scenario& scenario, scenario::RunOptions options) {
+  RecordedScenario recorded;
+  const scenario::CompileSettings settings{.strict = options.strict, .marks = true};
+  std::vector<std::unique_ptr<compiler::Compiled>> programs;
+  scenario::CompileStep step = scenario::compileProgram(scenario, options.programs, settings);
+  if (!step.program) return failure(step.environment.empty() ? "its program does not compile" : step.environment);
+  const frontend::Dialect& dialect = *step.program->dialect;
+  programs.push_back(std::make_unique<compiler::Compiled>(std::move(*step.program)));
+  for (const scenario::Statement& s : scenario.statements) {
+    const bool takesOver = scenario::StatementInfo::of(s).program == scenario::OtherProgram::TakesOver;
+    if (!takesOver || s.words.empty()) continue;
+    scenario::CompileStep next = scenario::compileNext(scenario, s, dialect, settings);
+    if (next.program) programs.push_back(std::make_unique<compiler::Compiled>(std::move(*next.program)));
+  }
+  std::unique_ptr<SessionRecorder> recorder;
+  const auto started = std::exchange(options.started, {});
+  options.started = [&](scenario::Session& session, const compiler::Compiled& program) {
+    recorder = std::make_unique<SessionRecorder>(session);
+    session.addObserver(*recorder);
+    return started ? started(session, program) : std::string();
+  };
+  options.ended = [&](scenario::Session&) {
+    recorded.recording = recorder->take();
+    recorded.recording.programs = std::move(programs);
+  };
+  recorded.result = scenario::run(scenario, options);
+  if (recorded.recording.programs.empty()) return failure("it cannot be run");
+  return recorded;
+}
+
+} // namespace rung::replay

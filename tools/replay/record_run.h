@@ -1,0 +1,57 @@
+// Records a program in a simulated control: scenarios and runs at the prompt.
+#pragma once
+#include <memory>
+#include <string>
+
+#include "rtlib/record/recorder.h"
+#include "rtlib/record/recording_writer.h"
+#include "tools/replay/recording.h"
+#include "tools/scenario/runner.h"
+#include "tools/scenario/session.h"
+
+namespace rung::replay {
+
+// Records a session from its start on; to be added to it as an observer then. The session outlives it, or `take`. The
+// statements are its marks.
+class SessionRecorder final : public scenario::Observer {
+public:
+  // In memory.
+  explicit SessionRecorder(scenario::Session& session);
+  // Into a folder, which is made. `program` is that of the session, with its module as built. Throws
+  // std::runtime_error if the folder cannot be used.
+  SessionRecorder(scenario::Session& session, const std::string& folder, const compiler::Compiled& program);
+  ~SessionRecorder() override;
+  SessionRecorder(const SessionRecorder&) = delete;
+  SessionRecorder& operator=(const SessionRecorder&) = delete;
+
+  void executing(const scenario::Session& session, const scenario::Statement& statement) override;
+  void scanned(const scenario::Session&) override { drain(); }
+  void replaced(const scenario::Session& session, const scenario::NextProgram& next) override;
+
+  // Ends it. What has been recorded in memory; its programs are still missing.
+  Recording take();
+
+private:
+  void drain();
+  void add(const compiler::Compiled& program);
+
+  runtime::Instance* instance_;
+  std::unique_ptr<runtime::Recorder> recorder_;
+  std::unique_ptr<runtime::RecordingWriter> writer_; // null: in memory
+  std::unique_ptr<runtime::RecordedBytes> bytes_;    // of the former program
+  uint64_t scans_ = 0;
+  Recording recording_;
+};
+
+struct RecordedScenario {
+  Recording recording; // to the end, or to the statement that failed
+  scenario::RunResult result;
+};
+
+// Runs the scenario and records it. Fails if it cannot be run.
+Result<RecordedScenario> recordScenario(const scenario::Scenario& scenario, scenario::RunOptions options);
+
+// Makes the one scenario that runs with these options record into the folder.
+void recordInto(const std::string& folder, scenario::RunOptions& options);
+
+} // namespace rung::replay

@@ -530,7 +530,7 @@ class VerifyDialects(unittest.TestCase):
                 path.write_text(text.replace(before, after))
                 status, text = ctl("verify", home / "other/plc")
             self.assertEqual(status, OTHER, text)
-            self.assertRegex(text, rf"\nchanged rung \d+ .*, {re.escape(str(home / 'other/plc' / source))}:\d+\n")
+            self.assertRegex(text, rf"\nchanged rung \d+.*, {re.escape(str(home / 'other/plc' / source))}:\d+\n")
             self.assertEqual(len(re.findall(r" rung \d+", text)), 1, text)
 
     def test_gsk(self):

@@ -342,7 +342,10 @@ chart::Program Charts::run() {
     if (made_.sequences.back().rung == 0)
       modules_[sequence.unit.index] = static_cast<uint32_t>(made_.sequences.size()) - 1;
   }
-  for (uint32_t i = 0; i < source_.files.size(); ++i) file(i);
+  for (uint32_t i = 0; i < source_.files.size(); ++i) {
+    made_.files.push_back(source_.files[i].id);
+    file(i);
+  }
   includedNames();
   return std::move(made_);
 }

@@ -28,10 +28,8 @@ std::optional<Program> drawnProgram(SourceManager& sources, std::span<const File
   if (module == nullptr) return std::nullopt;
   if (auto charts = program->charts(*module)) {
     const report::ModuleReference reference(*module, dialect.shownSpaces);
-    const Input input{.dialect = &dialect,
-                      .analysis = &program->analysis(),
-                      .reference = &reference.get(),
-                      .authors = charts->files};
+    const Input input{
+        .dialect = &dialect, .analysis = &program->analysis(), .reference = &reference.get(), .authors = charts->files};
     return readCharts(sources, input, std::move(*charts));
   }
   const auto networks = program->networks();

@@ -108,6 +108,7 @@ struct Item {
 };
 
 struct Program {
+  std::vector<FileId> files; // of the program in their order, decoded
   std::vector<Item> items;
   std::vector<Rung> rungs; // by number: rungs[i].number == i + 1
   std::vector<Sequence> sequences;

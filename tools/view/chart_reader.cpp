@@ -27,6 +27,7 @@ private:
 
   const Input& input_;
   frontend::chart::Program charts_;
+  std::unordered_map<uint32_t, uint32_t> chartOf_; // by number of the rung that begins it
 };
 
 void ChartReader::readRung(const frontend::chart::Rung& rung) {
@@ -37,8 +38,7 @@ void ChartReader::readRung(const frontend::chart::Rung& rung) {
   figure.comments = rung.comments;
   figure.labels = rung.labels;
   figure.place = {indexOf(rung.file), rung.line, 1};
-  for (uint32_t i = 0; i < charts_.sequences.size(); ++i)
-    if (charts_.sequences[i].rung == rung.number) figure.chart = i;
+  if (const auto chart = chartOf_.find(rung.number); chart != chartOf_.end()) figure.chart = chart->second;
   program_.figures.push_back(std::move(figure));
   Sheet sheet = buildSheet(rung, indexOf(rung.file), names_, *this);
   program_.figures[index].sheet = std::move(sheet);
@@ -73,6 +73,7 @@ void ChartReader::read(const Item& item) {
 }
 
 Program ChartReader::run() {
+  for (uint32_t i = 0; i < charts_.sequences.size(); ++i) chartOf_.emplace(charts_.sequences[i].rung, i);
   for (const Item& item : charts_.items) read(item);
   for (frontend::chart::Sequence& sequence : charts_.sequences) {
     const size_t parts = sequence.parts.size();

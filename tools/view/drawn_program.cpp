@@ -28,12 +28,9 @@ std::optional<Program> drawnProgram(SourceManager& sources, std::span<const File
   if (module == nullptr) return std::nullopt;
   if (auto charts = program->charts(*module)) {
     const report::ModuleReference reference(*module, dialect.shownSpaces);
-    return readCharts(sources,
-                      {.dialect = &dialect,
-                       .analysis = &program->analysis(),
-                       .reference = &reference.get(),
-                       .authors = {files.begin(), files.end()}},
-                      std::move(*charts));
+    const Input input{
+        .dialect = &dialect, .analysis = &program->analysis(), .reference = &reference.get(), .authors = charts->files};
+    return readCharts(sources, input, std::move(*charts));
   }
   const auto networks = program->networks();
   const std::vector<FileId> written(networks ? networks->files.begin() : files.begin(),

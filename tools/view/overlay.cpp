@@ -58,12 +58,16 @@ private:
   std::multimap<Key, Cell*> cells_; // an instruction may have several
 };
 
-void lay(const StepOverlay& step, Program& program) {
+void lay(const std::vector<StepOverlay>& steps, Program& program) {
+  std::unordered_map<std::string_view, uint32_t> states;
+  for (const StepOverlay& step : steps) states[step.continuation] = step.state;
   for (Chart& chart : program.charts) {
-    if (chart.sequence.continuation != step.continuation) continue;
-    for (size_t i = 0; i < chart.waits.size(); ++i)
-      chart.waits[i] =
-          std::ranges::find(chart.sequence.parts[i].states, step.state) != chart.sequence.parts[i].states.end();
+    const auto state = states.find(chart.sequence.continuation);
+    if (state == states.end()) continue;
+    for (size_t i = 0; i < chart.waits.size(); ++i) {
+      const std::vector<uint32_t>& all = chart.sequence.parts[i].states;
+      chart.waits[i] = std::ranges::find(all, state->second) != all.end();
+    }
   }
 }
 
@@ -95,7 +99,7 @@ std::string_view labelOf(const Run& run) {
 
 void lay(const Overlay& overlay, Program& program) {
   program.runs = {overlay.title, overlay.summary, overlay.heat};
-  for (const StepOverlay& step : overlay.steps) lay(step, program);
+  lay(overlay.steps, program);
   Layer layer(program);
   for (const RungOverlay& rung : overlay.rungs) layer.add(rung);
   for (const ElementOverlay& element : overlay.elements) layer.add(element);

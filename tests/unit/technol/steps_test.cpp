@@ -169,7 +169,7 @@ void Example::scan(std::mt19937& random) {
   ran_.clear();
   instance_->scan();
   expectResumed();
-  if (instance_->fault().code != 0) {
+  if (instance_->fault().code != RUNG_NONE) {
     instance_ = std::make_unique<runtime::Instance>(*engine_, this);
     instance_->runTask("INIT");
   }

@@ -51,6 +51,7 @@ private:
   void numberStatements();
   void numberStatementsWithoutCode();
   void makeRungs();
+  void makeSequences();
   void fill(chart::Rung& rung, std::span<const uint32_t> statements);
   bool isDrawnElsewhere(const chart::Rung& rung) const;
   void findSymbols();
@@ -333,16 +334,29 @@ void Charts::includedNames() {
     if (!listed.contains(definition)) add(ItemKind::Declaration, {}, {}, 0, definition);
 }
 
+void Charts::makeSequences() {
+  std::vector<std::vector<uint32_t>> statements(source_.units.size());
+  for (uint32_t i = 0; i < source_.statements.size(); ++i) {
+    const Statement& statement = source_.statements[i];
+    if (statement.row == nullptr || !statement.unit.valid()) continue;
+    statements[source_.owner(statement.unit).index].push_back(i);
+  }
+  for (const Trace::Sequence& sequence : trace_.sequences) {
+    made_.sequences.push_back(sequenceOf({program_, trace_, built_, rungs_, statements}, sequence));
+    if (made_.sequences.back().rung == 0)
+      modules_[sequence.unit.index] = static_cast<uint32_t>(made_.sequences.size()) - 1;
+  }
+}
+
 chart::Program Charts::run() {
   numberStatements();
   findSymbols();
   makeRungs();
-  for (const Trace::Sequence& sequence : trace_.sequences) {
-    made_.sequences.push_back(sequenceOf({program_, trace_, built_, rungs_}, sequence));
-    if (made_.sequences.back().rung == 0)
-      modules_[sequence.unit.index] = static_cast<uint32_t>(made_.sequences.size()) - 1;
+  makeSequences();
+  for (uint32_t i = 0; i < source_.files.size(); ++i) {
+    made_.files.push_back(source_.files[i].id);
+    file(i);
   }
-  for (uint32_t i = 0; i < source_.files.size(); ++i) file(i);
   includedNames();
   return std::move(made_);
 }

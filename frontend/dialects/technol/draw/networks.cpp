@@ -96,15 +96,17 @@ uint32_t Networks::make(Node node) {
   return static_cast<uint32_t>(rung_.nodes.size()) - 1;
 }
 
-// Series of series and branches of branches are one.
+// Series of series and branches of branches are one. `left` and `right` are used up.
 uint32_t Networks::combined(NodeKind kind, NodeId left, NodeId right) {
   Node node{.kind = kind};
   for (const NodeId part : {left, right}) {
-    const Node& one = rung_.nodes[part];
-    if (one.kind == kind)
-      node.parts.insert(node.parts.end(), one.parts.begin(), one.parts.end());
-    else
+    Node& one = rung_.nodes[part];
+    if (one.kind != kind)
       node.parts.push_back(part);
+    else if (node.parts.empty())
+      node.parts = std::move(one.parts);
+    else
+      node.parts.insert(node.parts.end(), one.parts.begin(), one.parts.end());
   }
   return make(std::move(node));
 }

@@ -43,6 +43,8 @@ private:
   const Trace::Sequence& from_;
   chart::Sequence made_;
   std::vector<uint32_t> statements_;                 // of the unit, in their order
+  std::map<uint32_t, uint32_t> beginsIn_;            // by rung of the routine: the first statement there
+  std::map<uint32_t, uint32_t> continuesIn_;         // the same for statements of several rungs
   std::map<uint32_t, std::vector<uint32_t>> states_; // by statement; kNone: the end
   uint32_t endRung_ = 0;                             // number of the rung at the end of a module
   std::map<uint32_t, uint32_t> partOf_;              // by the statement that begins it
@@ -55,22 +57,23 @@ void Steps::name() {
 }
 
 void Steps::findStatements() {
-  for (uint32_t i = 0; i < source_.statements.size(); ++i) {
-    const Statement& statement = at(i);
-    if (statement.row == nullptr || source_.owner(statement.unit) != from_.unit) continue;
-    if (statement.row->role == Role::MechBegin) made_.rung = built_.rungs[i];
-    if (built_.trace.statements[i].routine.valid() && statement.row->role != Role::MechBegin) statements_.push_back(i);
+  for (const uint32_t i : built_.statements[from_.unit.index]) {
+    const bool begins = at(i).row->role == Role::MechBegin;
+    if (begins) made_.rung = built_.rungs[i];
+    const Trace::Statement& place = built_.trace.statements[i];
+    if (begins || !place.routine.valid()) continue;
+    statements_.push_back(i);
+    if (place.routine != from_.routine) continue;
+    beginsIn_.emplace(place.first, i);
+    for (uint32_t rung = place.first + 1; rung <= place.last; ++rung) continuesIn_.emplace(rung, i);
   }
 }
 
 // The statement that begins in the rung, or has a part of itself there; kNone: the rung is the end.
 uint32_t Steps::statementAt(uint32_t rung) const {
-  const auto& places = built_.trace.statements;
-  const auto begins = [&](uint32_t i) { return places[i].routine == from_.routine && places[i].first == rung; };
-  auto found = std::ranges::find_if(statements_, begins);
-  if (found == statements_.end())
-    found = std::ranges::find_if(statements_, [&](uint32_t i) { return places[i].isIn(from_.routine, rung); });
-  return found == statements_.end() ? kNone : *found;
+  if (const auto begins = beginsIn_.find(rung); begins != beginsIn_.end()) return begins->second;
+  const auto continues = continuesIn_.find(rung);
+  return continues == continuesIn_.end() ? kNone : continues->second;
 }
 
 // The rungs in which the states continue are the targets of the switch; the compiler's own rungs lead to them.

@@ -12,8 +12,9 @@ namespace rung::frontend::technol {
 struct Built {
   const TypedProgram& program;
   const Trace& trace;
-  const ir::Module& module;           // as it was built
-  const std::vector<uint32_t>& rungs; // by statement: the number of its rung; 0: none
+  const ir::Module& module;                             // as it was built
+  const std::vector<uint32_t>& rungs;                   // by statement: the number of its rung; 0: none
+  const std::vector<std::vector<uint32_t>>& statements; // of each unit that is not a timed block
 };
 
 chart::Sequence sequenceOf(const Built& built, const Trace::Sequence& sequence);

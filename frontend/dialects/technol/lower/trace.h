@@ -12,7 +12,6 @@ struct Trace {
     ir::RoutineId routine;
     uint32_t first = UINT32_MAX;
     uint32_t last = 0;
-    bool isIn(ir::RoutineId other, uint32_t rung) const { return routine == other && first <= rung && rung <= last; }
   };
   // A unit that waits. Its rung `dispatch` ends with a switch over the states.
   struct Sequence {

@@ -70,16 +70,28 @@ private:
   }
   template <class T, size_t N>
   void save(const std::array<T, N>& all) noexcept {
-    for (const T& each : all) save(each);
+    saveAll(std::span<const T>(all));
   }
   template <class T, size_t N>
   void save(const T (&all)[N]) noexcept {
-    for (const T& each : all) save(each);
+    saveAll(std::span<const T>(all));
   }
   template <class T>
   void save(const std::vector<T>& all) noexcept {
     save(uint64_t{all.size()});
-    for (const T& each : all) save(each);
+    saveAll(std::span<const T>(all));
+  }
+  void save(const std::vector<bool>& all) noexcept {
+    save(uint64_t{all.size()});
+    for (const bool each : all) save(each);
+  }
+  template <class T>
+  void saveAll(std::span<const T> all) noexcept {
+    if constexpr (Number<T>) {
+      bytes({reinterpret_cast<const uint8_t*>(all.data()), all.size_bytes()});
+    } else {
+      for (const T& each : all) save(each);
+    }
   }
   template <class Key, class T, class... Rest>
   void save(const std::map<Key, T, Rest...>& all) noexcept {

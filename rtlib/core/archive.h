@@ -70,28 +70,16 @@ private:
   }
   template <class T, size_t N>
   void save(const std::array<T, N>& all) noexcept {
-    saveAll(std::span<const T>(all));
+    for (const T& each : all) save(each);
   }
   template <class T, size_t N>
   void save(const T (&all)[N]) noexcept {
-    saveAll(std::span<const T>(all));
+    for (const T& each : all) save(each);
   }
   template <class T>
   void save(const std::vector<T>& all) noexcept {
     save(uint64_t{all.size()});
-    saveAll(std::span<const T>(all));
-  }
-  void save(const std::vector<bool>& all) noexcept {
-    save(uint64_t{all.size()});
-    for (const bool each : all) save(each);
-  }
-  template <class T>
-  void saveAll(std::span<const T> all) noexcept {
-    if constexpr (Number<T>) {
-      bytes({reinterpret_cast<const uint8_t*>(all.data()), all.size_bytes()});
-    } else {
-      for (const T& each : all) save(each);
-    }
+    for (const T& each : all) save(each);
   }
   template <class Key, class T, class... Rest>
   void save(const std::map<Key, T, Rest...>& all) noexcept {

@@ -43,7 +43,9 @@ public:
     uint32_t next = 0; // pieces may overlap at the end of a block
     for (Piece& piece : pieces_) {
       const Words now = wordsAt(block, piece) & piece.mask;
-      const auto bytes = std::bit_cast<std::array<uint8_t, kPiece>>(now ^ piece.known);
+      const Words different = now ^ piece.known;
+      if ((different[0] | different[1]) == 0) continue;
+      const auto bytes = std::bit_cast<std::array<uint8_t, kPiece>>(different);
       piece.known = now;
       for (uint32_t b = 0; b < kPiece; ++b)
         if (bytes[b] != 0 && piece.offset + b >= next) changed(piece.offset + b), next = piece.offset + b + 1;

@@ -16,6 +16,7 @@ InputBits::InputBits(std::span<const uint8_t> masks) : masks_(masks.begin(), mas
     pieces_.push_back(piece);
     at = piece.offset + kPiece;
   }
+  while (pieces_.size() % kStep != 0) pieces_.push_back({.known = {}, .mask = {}, .offset = pieces_.back().offset});
   makeList();
 }
 

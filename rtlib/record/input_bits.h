@@ -34,7 +34,9 @@ public:
   }
   bool areAsKnown(const uint8_t* block) const noexcept {
     Words different{};
-    for (const Piece& piece : pieces_) different |= (wordsAt(block, piece) ^ piece.known) & piece.mask;
+    for (size_t i = 0; i < pieces_.size(); i += kStep) // there are so many that no rest remains
+      for (size_t k = i; k < i + kStep; ++k)
+        different |= (wordsAt(block, pieces_[k]) ^ pieces_[k].known) & pieces_[k].mask;
     return (different[0] | different[1]) == 0;
   }
   // Calls changed(offset) for each byte that is not as known, with ascending offsets, and makes all known.
@@ -66,6 +68,7 @@ public:
 
 private:
   static constexpr uint32_t kPiece = 16; // bytes that are compared at once
+  static constexpr size_t kStep = 4;     // pieces of which the comparison makes one step
   using Words = uint64_t __attribute__((vector_size(kPiece)));
   struct Piece {
     Words known, mask;
@@ -82,7 +85,7 @@ private:
   void makeList();
 
   std::vector<uint8_t> masks_; // of the block
-  std::vector<Piece> pieces_;  // by offset
+  std::vector<Piece> pieces_;  // by offset; the last ones may have no bits
   std::vector<uint8_t> list_;  // as `list` writes it
 };
 

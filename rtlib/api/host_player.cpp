@@ -123,11 +123,9 @@ Played HostPlayer::play() {
 
 // ---- states ------------------------------------------------------------------------------------------------------
 
-// The configuration of the control comes before the first power-on.
 Played HostPlayer::playState() {
   const std::span<const uint8_t> bytes = reader_.takeBytes(reader_.takeNumber());
   if (!reader_.good() || !nextInputs_) return damaged();
-  if (!instance_->on) (void)rung_instance_power_on(instance_, RUNG_COLD);
   running().setNeededCopiesOnly(neededOnly_);
   if (whole_) compareState(bytes);
   core::Loader loader(bytes);
@@ -161,6 +159,8 @@ bool HostPlayer::takeBefore(Event event) {
   case Event::Configured: return takeConfigured();
   case Event::Inputs:
     nextInputs_ = runtime::InputBits::fromList(running().block().size(), reader_);
+    // The configuration comes before the first power-on, and forces after it.
+    if (!instance_->on) (void)rung_instance_power_on(instance_, RUNG_COLD);
     return nextInputs_.has_value();
   case Event::Clock: running().advanceClock(unzigzag(reader_.takeNumber())); return reader_.good();
   case Event::Input:

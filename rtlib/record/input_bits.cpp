@@ -16,11 +16,13 @@ InputBits::InputBits(std::span<const uint8_t> masks) : masks_(masks.begin(), mas
     pieces_.push_back(piece);
     at = piece.offset + kPiece;
   }
+  while (pieces_.size() % kStep != 0) pieces_.push_back({.known = {}, .mask = {}, .offset = pieces_.back().offset});
+  makeList();
 }
 
 // put(first, count) for each run of bytes with such bits.
 template <class Put>
-void InputBits::eachRun(Put put) const noexcept {
+void InputBits::eachRun(Put put) const {
   for (size_t at = 0; at < masks_.size();) {
     size_t end = at;
     while (end < masks_.size() && masks_[end] != 0) ++end;
@@ -29,9 +31,12 @@ void InputBits::eachRun(Put put) const noexcept {
   }
 }
 
-void InputBits::list(EventWriter& writer) const noexcept {
-  size_t runs = 0, end = 0;
-  eachRun([&](size_t, size_t) { ++runs; });
+void InputBits::makeList() {
+  constexpr size_t kNumber = 5; // bytes of a number of 32 bits
+  size_t runs = 0, end = 0, room = kNumber;
+  eachRun([&](size_t, size_t count) { ++runs, room += 2 * kNumber + count; });
+  list_.resize(room);
+  EventWriter writer(list_);
   writer.putNumber(runs);
   eachRun([&](size_t first, size_t count) {
     writer.putNumber(first - end);
@@ -39,21 +44,7 @@ void InputBits::list(EventWriter& writer) const noexcept {
     writer.putBytes({masks_.data() + first, count});
     end = first + count;
   });
-}
-
-void InputBits::listKnown(EventWriter& writer) const noexcept {
-  for (const Piece& piece : pieces_) {
-    const auto bytes = std::bit_cast<std::array<uint8_t, kPiece>>(piece.known);
-    writer.put(Event::Input, piece.offset, kPiece);
-    writer.putBytes(bytes);
-  }
-}
-
-size_t InputBits::listed() const noexcept {
-  constexpr size_t kNumber = 5; // bytes of a number of 32 bits
-  size_t size = kNumber;
-  eachRun([&](size_t, size_t count) { size += 2 * kNumber + count; });
-  return size;
+  list_.resize(writer.size());
 }
 
 std::optional<InputBits> InputBits::fromList(size_t blockBytes, EventReader& reader) {

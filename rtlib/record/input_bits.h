@@ -21,8 +21,8 @@ public:
   static std::optional<InputBits> fromList(size_t blockBytes, EventReader& reader);
 
   // Writes the number of runs of bytes and, for each, SKIP, BYTES and the masks. `listed`: the room for that.
-  void list(EventWriter& writer) const noexcept;
-  size_t listed() const noexcept;
+  void list(EventWriter& writer) const noexcept { writer.putBytes(list_); }
+  size_t listed() const noexcept { return list_.size(); }
   // The maximum number of bytes that `compare` can find changed.
   size_t bytes() const noexcept { return kPiece * pieces_.size(); }
 
@@ -34,7 +34,9 @@ public:
   }
   bool areAsKnown(const uint8_t* block) const noexcept {
     Words different{};
-    for (const Piece& piece : pieces_) different |= (wordsAt(block, piece) ^ piece.known) & piece.mask;
+    for (size_t i = 0; i < pieces_.size(); i += kStep) // there are so many that no rest remains
+      for (size_t k = i; k < i + kStep; ++k)
+        different |= (wordsAt(block, pieces_[k]) ^ pieces_[k].known) & pieces_[k].mask;
     return (different[0] | different[1]) == 0;
   }
   // Calls changed(offset) for each byte that is not as known, with ascending offsets, and makes all known.
@@ -43,7 +45,9 @@ public:
     uint32_t next = 0; // pieces may overlap at the end of a block
     for (Piece& piece : pieces_) {
       const Words now = wordsAt(block, piece) & piece.mask;
-      const auto bytes = std::bit_cast<std::array<uint8_t, kPiece>>(now ^ piece.known);
+      const Words different = now ^ piece.known;
+      if ((different[0] | different[1]) == 0) continue;
+      const auto bytes = std::bit_cast<std::array<uint8_t, kPiece>>(different);
       piece.known = now;
       for (uint32_t b = 0; b < kPiece; ++b)
         if (bytes[b] != 0 && piece.offset + b >= next) changed(piece.offset + b), next = piece.offset + b + 1;
@@ -66,6 +70,7 @@ public:
 
 private:
   static constexpr uint32_t kPiece = 16; // bytes that are compared at once
+  static constexpr size_t kStep = 4;     // pieces of which the comparison makes one step
   using Words = uint64_t __attribute__((vector_size(kPiece)));
   struct Piece {
     Words known, mask;
@@ -78,10 +83,12 @@ private:
     return words;
   }
   template <class Put>
-  void eachRun(Put put) const noexcept;
+  void eachRun(Put put) const;
+  void makeList();
 
   std::vector<uint8_t> masks_; // of the block
-  std::vector<Piece> pieces_;  // by offset
+  std::vector<Piece> pieces_;  // by offset; the last ones may have no bits
+  std::vector<uint8_t> list_;  // as `list` writes it
 };
 
 } // namespace rung::runtime

@@ -33,7 +33,8 @@ public:
   bool whole() const noexcept { return whole_; }
   bool isStateDue(int64_t nowUs) const noexcept { return nowUs >= stateUs_; }
   // Begins a record with a whole state, after all before it. `put` writes the events that belong to it, at most `room`
-  // bytes. False: there is no room; the recording continues as it was, and a state is due again after a while.
+  // bytes, or returns false. False: there is no room; the recording continues as it was, and a state is due again after
+  // a while.
   template <class Put>
   bool putState(uint64_t program, int64_t nowUs, size_t room, Put put) noexcept;
   // What comes from now on does not follow from before.
@@ -127,7 +128,7 @@ bool PartStream::putState(uint64_t program, int64_t nowUs, size_t room, Put put)
   EventWriter writer(to);
   writer.put(Event::Program, program);
   if (!whole_) writer.put(lost_ ? Event::Lost : Event::Anew);
-  put(writer);
+  if (!put(writer)) return false;
   ring_.commit(writer.size());
   stateUs_ = nowUs + options_.stateEveryUs;
   whole_ = true;

@@ -99,6 +99,7 @@ void Recorder::putState(const Instance& instance) noexcept {
     core::Saver saver(writer.rest());
     (void)instance.save(saver, false);
     writer.advance(size);
+    return true;
   };
   if (stream_.putState(instance.program().code_hash, instance.nowUs(), room, put)) know(instance);
 }

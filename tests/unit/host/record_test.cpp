@@ -85,11 +85,11 @@ rung
                 +--(S CP_TACK)
 rung
 |--[CN_M1STB]--+--(R CP_M1ACK)
-               +--{ADD COUNT #1 COUNT}
+               +--{ADD COUNT COUNT #1}
 rung
 |--[ARM]--[/CP_M1ACK]--(S CP_M1ACK)
 rung
-|--[ARM]--[N_1SEC]--(COOLANT)
+|--[ARM]--[N_P1S]--(COOLANT)
 rung
 |--[CP_M1ACK]--(CP_FIN)
 rung
@@ -251,12 +251,12 @@ TEST_P(Recorded, AStepAllocatesNothing) {
 TEST_P(Recorded, WhatFindsNoRoomIsLostAndSaid) {
   rung_instance* plc = b.host->instance();
   EXPECT_EQ(rung_instance_record(plc, nullptr), RUNG_OK);
-  plc->recorder = std::make_unique<api::HostRecorder>(*plc, runtime::RecorderOptions{.ringBytes = 1 << 16});
-  for (int i = 0; i < 30'000; ++i) {
-    b.values[0].bit = i % 2 != 0;
+  plc->recorder = std::make_unique<api::HostRecorder>(*plc, runtime::RecorderOptions{.ringBytes = 1 << 18});
+  runtime::PartStream& stream = plc->recorder->stream();
+  for (int i = 0; i < 4'000'000 && stream.losses() == 0; ++i) {
+    b.values[0].bit = i / 10 % 2 != 0;
     (void)b.host->step(GetParam().stepNs);
   }
-  runtime::PartStream& stream = plc->recorder->stream();
   EXPECT_GT(stream.losses(), 0u);
   const auto empty = [&] {
     std::vector<uint8_t> events;

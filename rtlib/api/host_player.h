@@ -9,6 +9,7 @@
 #include "rtlib/api/instance.h"
 #include "rtlib/record/input_bits.h"
 #include "rtlib/record/player.h"
+#include "rtlib/record/watched_bytes.h"
 
 namespace rung::api {
 
@@ -75,6 +76,7 @@ private:
   rung_instance* instance_ = nullptr;
   runtime::EventReader reader_{{}};
   std::optional<runtime::InputBits> inputs_;
+  runtime::BlockBytes bits_;
   std::vector<Configured> configured_; // that the control has
   bool neededOnly_ = false;
   bool served_ = false;

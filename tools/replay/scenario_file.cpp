@@ -52,14 +52,14 @@ public:
   }
 
 private:
-  // The bits of inputs that are others than before.
+  // The bits that are others than after the last part.
   void compare(const runtime::Instance& instance) {
     const rung_program& program = instance.program();
     const core::Memory before(program, known_.data());
     const core::Memory now = instance.memory();
     for (uint32_t s = 0; s < program.space_count; ++s) {
       const rung_space& space = program.spaces[s];
-      if ((space.flags & RUNG_SPACE_INPUT) == 0 || (space.flags & RUNG_SPACE_HIDDEN) != 0) continue;
+      if ((space.flags & RUNG_SPACE_HIDDEN) != 0) continue;
       for (uint32_t byte = 0; byte < space.byte_count; ++byte) {
         const uint8_t changed = before.readByte(s, byte) ^ now.readByte(s, byte);
         for (uint32_t bit = 0; changed != 0 && bit < 8; ++bit)

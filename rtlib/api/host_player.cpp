@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <stdexcept>
+#include <utility>
 
 #include "rtlib/api/error.h"
 #include "rtlib/api/running.h"
@@ -55,7 +56,7 @@ std::vector<uint8_t> HostPlayer::state() {
   if (!whole_ || !inputs_ || !saveState(*instance_, counted, Waiting::LeftOut)) return {};
   const std::span<const core::ForcedBits> forced = running().forcedBits();
   constexpr size_t kNumber = 10; // bytes of one, at most
-  size_t room = counted.size() + 2 * inputs_->listed() + inputs_->bytes() + (16 + 3 * forced.size()) * kNumber;
+  size_t room = counted.size() + inputs_->listed() + 2 * inputs_->bytes() + (16 + 3 * forced.size()) * kNumber;
   for (const Configured& one : configured_) room += one.text.size() + 6 * kNumber;
   std::vector<uint8_t> events(room);
   runtime::EventWriter writer(events);
@@ -126,12 +127,13 @@ Played HostPlayer::play() {
 // The configuration of the control comes before the first power-on.
 Played HostPlayer::playState() {
   const std::span<const uint8_t> bytes = reader_.takeBytes(reader_.takeNumber());
-  if (!reader_.good() || !inputs_) return damaged();
+  if (!reader_.good() || !nextInputs_) return damaged();
   if (!instance_->on) (void)rung_instance_power_on(instance_, RUNG_COLD);
   running().setNeededCopiesOnly(neededOnly_);
   if (whole_) compareState(bytes);
   core::Loader loader(bytes);
   if (loadState(*instance_, loader) != RUNG_OK) return damaged();
+  inputs_ = std::exchange(nextInputs_, std::nullopt);
   inputs_->know(running().block().data());
   whole_ = true;
   return Played::State;
@@ -159,8 +161,8 @@ bool HostPlayer::takeBefore(Event event) {
   case Event::Surroundings: return takeSurroundings();
   case Event::Configured: return takeConfigured();
   case Event::Inputs:
-    inputs_ = runtime::InputBits::fromList(running().block().size(), reader_);
-    return inputs_.has_value();
+    nextInputs_ = runtime::InputBits::fromList(running().block().size(), reader_);
+    return nextInputs_.has_value();
   case Event::Clock: running().advanceClock(unzigzag(reader_.takeNumber())); return reader_.good();
   case Event::Input:
   case Event::Bytes: {

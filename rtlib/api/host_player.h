@@ -75,9 +75,9 @@ private:
   runtime::PlayerOwner& owner_;
   rung_instance* instance_ = nullptr;
   runtime::EventReader reader_{{}};
-  std::optional<runtime::InputBits> inputs_;
+  std::optional<runtime::InputBits> inputs_, nextInputs_; // those of the next state
+  std::vector<Configured> configured_;                    // that the control has
   runtime::BlockBytes bits_;
-  std::vector<Configured> configured_; // that the control has
   bool neededOnly_ = false;
   bool served_ = false;
   bool whole_ = false;

@@ -74,13 +74,26 @@ void HostRecorder::programChanged(std::unique_ptr<runtime::InputBits>& bits) noe
 
 // ---- whole states ------------------------------------------------------------------------------------------------
 
+// The size is known when it is written. If there is too little room for it, the next part tries again with more.
+bool HostRecorder::putWhole(EventWriter& writer) noexcept {
+  constexpr size_t kReserve = 1024;
+  writer.put(Event::State);
+  EventWriter size = writer;
+  writer.advance(EventWriter::kPadded);
+  core::Saver saver(writer.rest());
+  const bool saved = saveState(instance_, saver, Waiting::LeftOut);
+  if (saved && !saver.fits()) stateBytes_ = saver.size() + kReserve;
+  if (!saved || !saver.fits()) return false;
+  size.putPadded(saver.size());
+  writer.advance(saver.size());
+  return true;
+}
+
 void HostRecorder::putState() noexcept {
-  if (inputs_ == nullptr) return; // the replacement was prepared before the recording
-  core::Saver counted({});
-  if (!saveState(instance_, counted, Waiting::LeftOut)) return;
+  if (inputs_ == nullptr) return;             // the replacement was prepared before the recording
   constexpr size_t kOther = 256, kForce = 12; // of the other events
-  const size_t room = counted.size() + kOther + kForce * running_.forcedBits().size() + inputs_->listed() +
-                      roomFor(instance_.configured);
+  const size_t room =
+      stateBytes_ + kOther + kForce * running_.forcedBits().size() + inputs_->listed() + roomFor(instance_.configured);
   neededOnly_ = running_.neededCopiesOnly();
   const auto put = [&](EventWriter& writer) noexcept {
     const runtime::Surroundings of = running_.surroundings();
@@ -90,10 +103,7 @@ void HostRecorder::putState() noexcept {
     writer.put(Event::Inputs);
     inputs_->list(writer);
     putForces(writer, running_.forcedBits());
-    writer.put(Event::State, counted.size());
-    core::Saver saver(writer.rest());
-    (void)saveState(instance_, saver, Waiting::LeftOut);
-    writer.advance(counted.size());
+    return putWhole(writer);
   };
   if (!stream_.putState(running_.program().code_hash, running_.nowUs(), room, put)) return;
   inputs_->know(running_.block().data());

@@ -16,7 +16,7 @@ namespace rung::api {
 
 struct Generation;
 
-// What the machine's configuration has told the control (Event::Configured).
+// A setting of the control by the machine's configuration (Event::Configured).
 struct Configured {
   enum class Kind : uint8_t {
     Stored,    // retained memory is on disk
@@ -70,6 +70,7 @@ public:
 
 private:
   void putState() noexcept;
+  bool putWhole(runtime::EventWriter& writer) noexcept;
   void putInputs() noexcept;
   void putBytes(uint32_t offset, uint32_t count) noexcept;
   void putLogicalByte(uint32_t space, uint32_t byte) noexcept;
@@ -83,7 +84,8 @@ private:
   bool served_ = false, servedKnown_ = false;
   bool faulted_ = false;
   bool neededOnly_ = false;
-  int64_t nowUs_ = 0; // after the last part
+  int64_t nowUs_ = 0;     // after the last part
+  size_t stateBytes_ = 0; // of the last state, and a reserve
   size_t beforeFunction_ = 0;
 };
 

@@ -14,7 +14,7 @@ namespace rung::api {
 
 namespace {
 
-// What others write and the program reads, and what it writes itself, which is compared at each state.
+// All that the program reads or writes; what it writes is compared at each state.
 runtime::RecordedBytes recordedBytes(const rung_program& program) {
   const runtime::BlockBytes written = runtime::writtenBytes(program);
   runtime::BlockBytes within = runtime::readBytes(program);
@@ -99,7 +99,7 @@ using namespace rung::api;
 
 namespace {
 
-// Whoever asks may be any thread; the recording begins and ends while no other one does.
+// Any thread; the recording begins and ends while no other one calls this.
 InstanceRecording* recordingOf(const rung_instance* instance, int32_t& status) noexcept {
   rung_instance* handle = instanceOf(instance);
   status = handle == nullptr ? failHandle("an instance") : int32_t{RUNG_OK};

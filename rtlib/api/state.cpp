@@ -1,4 +1,5 @@
 // The state of an instance as bytes, and its clock.
+#include <bit>
 #include <span>
 
 #include "rtlib/api/error.h"
@@ -59,6 +60,8 @@ int32_t loadState(rung_instance& instance, core::Loader& loader) {
   if (isPossible) {
     instance.environment->load(instance.running, loader);
     loader(own);
+    for (uint32_t left = own.functionChannels; left != 0; left &= left - 1)
+      loader.require(instance.control->functions(static_cast<uint32_t>(std::countr_zero(left))) != nullptr);
   }
   if (!isPossible || !loader.good() || loader.left() != 0) {
     instance.on = false;

@@ -70,6 +70,12 @@ public:
     for (; number >= 0x80; number >>= 7) putByte(static_cast<uint8_t>(number | 0x80));
     putByte(static_cast<uint8_t>(number));
   }
+  // A number of up to 35 bits in five bytes, which can be written later.
+  static constexpr size_t kPadded = 5;
+  void putPadded(uint64_t number) noexcept {
+    for (size_t i = 0; i + 1 < kPadded; ++i, number >>= 7) putByte(static_cast<uint8_t>(number | 0x80));
+    putByte(static_cast<uint8_t>(number & 0x7F));
+  }
   void putBytes(std::span<const uint8_t> bytes) noexcept {
     fits_ = fits_ && bytes.size() <= to_.size() - size_;
     if (!fits_ || bytes.empty()) return;

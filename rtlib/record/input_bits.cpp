@@ -16,11 +16,12 @@ InputBits::InputBits(std::span<const uint8_t> masks) : masks_(masks.begin(), mas
     pieces_.push_back(piece);
     at = piece.offset + kPiece;
   }
+  makeList();
 }
 
 // put(first, count) for each run of bytes with such bits.
 template <class Put>
-void InputBits::eachRun(Put put) const noexcept {
+void InputBits::eachRun(Put put) const {
   for (size_t at = 0; at < masks_.size();) {
     size_t end = at;
     while (end < masks_.size() && masks_[end] != 0) ++end;
@@ -29,9 +30,12 @@ void InputBits::eachRun(Put put) const noexcept {
   }
 }
 
-void InputBits::list(EventWriter& writer) const noexcept {
-  size_t runs = 0, end = 0;
-  eachRun([&](size_t, size_t) { ++runs; });
+void InputBits::makeList() {
+  constexpr size_t kNumber = 5; // bytes of a number of 32 bits
+  size_t runs = 0, end = 0, room = kNumber;
+  eachRun([&](size_t, size_t count) { ++runs, room += 2 * kNumber + count; });
+  list_.resize(room);
+  EventWriter writer(list_);
   writer.putNumber(runs);
   eachRun([&](size_t first, size_t count) {
     writer.putNumber(first - end);
@@ -39,6 +43,7 @@ void InputBits::list(EventWriter& writer) const noexcept {
     writer.putBytes({masks_.data() + first, count});
     end = first + count;
   });
+  list_.resize(writer.size());
 }
 
 void InputBits::listKnown(EventWriter& writer) const noexcept {
@@ -47,13 +52,6 @@ void InputBits::listKnown(EventWriter& writer) const noexcept {
     writer.put(Event::Input, piece.offset, kPiece);
     writer.putBytes(bytes);
   }
-}
-
-size_t InputBits::listed() const noexcept {
-  constexpr size_t kNumber = 5; // bytes of a number of 32 bits
-  size_t size = kNumber;
-  eachRun([&](size_t, size_t count) { size += 2 * kNumber + count; });
-  return size;
 }
 
 std::optional<InputBits> InputBits::fromList(size_t blockBytes, EventReader& reader) {

@@ -21,8 +21,8 @@ public:
   static std::optional<InputBits> fromList(size_t blockBytes, EventReader& reader);
 
   // Writes the number of runs of bytes and, for each, SKIP, BYTES and the masks. `listed`: the room for that.
-  void list(EventWriter& writer) const noexcept;
-  size_t listed() const noexcept;
+  void list(EventWriter& writer) const noexcept { writer.putBytes(list_); }
+  size_t listed() const noexcept { return list_.size(); }
   // The maximum number of bytes that `compare` can find changed.
   size_t bytes() const noexcept { return kPiece * pieces_.size(); }
 
@@ -78,10 +78,12 @@ private:
     return words;
   }
   template <class Put>
-  void eachRun(Put put) const noexcept;
+  void eachRun(Put put) const;
+  void makeList();
 
   std::vector<uint8_t> masks_; // of the block
   std::vector<Piece> pieces_;  // by offset
+  std::vector<uint8_t> list_;  // as `list` writes it
 };
 
 } // namespace rung::runtime

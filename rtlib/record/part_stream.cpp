@@ -20,6 +20,7 @@ void PartStream::lose() noexcept {
   if (whole_) losses_.store(losses_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
   lost_ = lost_ || whole_;
   whole_ = false;
+  stateUs_ = kAtOnce;
   last_.plain = false;
   repeats_ = 0;
   part_.cut(0);

@@ -31,15 +31,17 @@ public:
   EventWriter& events() noexcept { return part_; }
   // Whether all since the last state is recorded.
   bool whole() const noexcept { return whole_; }
-  bool isStateDue(int64_t nowUs) const noexcept { return !whole_ || nowUs >= stateUs_; }
+  bool isStateDue(int64_t nowUs) const noexcept { return nowUs >= stateUs_; }
   // Begins a record with a whole state, after all before it. `put` writes the events that belong to it, at most `room`
-  // bytes. False: there is no room, and the recording continues as it was.
+  // bytes, or returns false. False: there is no room; the recording continues as it was, and a state is due again after
+  // a while.
   template <class Put>
   bool putState(uint64_t program, int64_t nowUs, size_t room, Put put) noexcept;
   // What comes from now on does not follow from before.
   void beginAnew() noexcept {
     if (whole_) flush();
     whole_ = false;
+    stateUs_ = kAtOnce;
     part_.cut(0);
   }
 
@@ -80,6 +82,7 @@ public:
 private:
   static constexpr size_t kBatch = 1024; // bytes that are made readable together
   static constexpr size_t kHead = 16;    // bytes of the first events of a state
+  static constexpr int64_t kAtOnce = INT64_MIN, kAgainUs = 100'000;
 
   struct Part {
     PartKind kind = PartKind::Scan;
@@ -104,8 +107,8 @@ private:
   EventWriter part_;
   EventWriter batch_; // parts that are not readable yet
   bool whole_ = false;
-  bool lost_ = false;   // something was lost since then
-  int64_t stateUs_ = 0; // when the next state is due
+  bool lost_ = false;         // something was lost since then
+  int64_t stateUs_ = kAtOnce; // when the next state is due
   Part now_, last_;
   size_t plainSize_ = 0; // of the events up to that of the part itself; 0: it is not written
   uint64_t repeats_ = 0; // of the last one
@@ -118,11 +121,14 @@ template <class Put>
 bool PartStream::putState(uint64_t program, int64_t nowUs, size_t room, Put put) noexcept {
   keepBefore();
   const std::span<uint8_t> to = ring_.reserve(kHead + room);
-  if (to.empty()) return false;
+  if (to.empty()) {
+    stateUs_ = nowUs + kAgainUs;
+    return false;
+  }
   EventWriter writer(to);
   writer.put(Event::Program, program);
   if (!whole_) writer.put(lost_ ? Event::Lost : Event::Anew);
-  put(writer);
+  if (!put(writer)) return false;
   ring_.commit(writer.size());
   stateUs_ = nowUs + options_.stateEveryUs;
   whole_ = true;

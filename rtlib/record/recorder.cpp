@@ -99,6 +99,7 @@ void Recorder::putState(const Instance& instance) noexcept {
     core::Saver saver(writer.rest());
     (void)instance.save(saver, false);
     writer.advance(size);
+    return true;
   };
   if (stream_.putState(instance.program().code_hash, instance.nowUs(), room, put)) know(instance);
 }
@@ -160,7 +161,7 @@ void Recorder::mark(std::string_view text) noexcept {
 
 // ---- within a part -----------------------------------------------------------------------------------------------
 
-// What the program has written in the part so far is not what others write now.
+// What the program has written in the part so far is known.
 void Recorder::withinBegins(const Instance& instance) noexcept { enterWithin(instance); }
 
 void Recorder::withinEnded(const Instance& instance) noexcept {
@@ -215,7 +216,7 @@ void Recorder::requested(const Instance& instance, const core::ServiceRequest& r
 // ---- after a part ------------------------------------------------------------------------------------------------
 
 void Recorder::ended(const Instance& instance) noexcept {
-  if (depth_ != 0) { // of a task within a hook, which goes on
+  if (depth_ != 0) { // of a task within a hook, which continues
     --depth_;
     return enterWithin(instance);
   }

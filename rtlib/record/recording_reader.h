@@ -38,7 +38,7 @@ public:
   std::vector<RecordedBlock> states();
   // Whether the recording ended here regularly.
   bool ended() const { return ended_; }
-  // Bytes at the end of the file that are no whole block: one that is being written, or was cut off.
+  // Bytes at the end of the file after the last whole block: one that is being written, or was cut off.
   uint64_t rest() const;
   // One sentence for each place that is damaged.
   const std::vector<std::string>& problems() const { return problems_; }

@@ -66,7 +66,7 @@ std::unique_ptr<AppendedFile> openAppended(const std::string& path, std::string&
   return nullptr;
 }
 
-// Packed bytes of the block are at its end; the stream goes on in the next one.
+// Packed bytes of the block are at its end; the stream continues in the next one.
 struct RecordingWriter::Deflate {
   Deflate() {
     constexpr int kRaw = -15, kMemory = 8; // no header of zlib; its own default

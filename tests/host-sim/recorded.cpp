@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "ir/support/check.h"
+#include "rtlib/load/program_info.h"
 #include "rtlib/record/recording_reader.h"
 #include "tests/host-sim/world.h"
 
@@ -37,7 +38,8 @@ struct Version {
 class Playing {
 public:
   explicit Playing(const Programs& programs) {
-    for (size_t i = 0; i < programs.versions().size(); ++i) versions_.push_back(std::make_unique<Version>(programs.image(i)));
+    for (size_t i = 0; i < programs.versions().size(); ++i)
+      versions_.push_back(std::make_unique<Version>(programs.image(i)));
   }
 
   // "", or the problem.
@@ -68,7 +70,7 @@ private:
       }
       if (now().difference())
         return "played otherwise: " + std::to_string(static_cast<int>(now().difference()->kind)) + ", offset " +
-               std::to_string(now().difference()->offset) + " at " + at;
+               placeOf(now().difference()->offset) + " at " + at;
     }
     return {};
   }
@@ -80,6 +82,12 @@ private:
     for (now_ = 0; now_ < versions_.size(); ++now_)
       if (now().running().program().code_hash == hash) return true;
     return false;
+  }
+  std::string placeOf(uint32_t offset) {
+    const rung_program& program = now().running().program();
+    const std::optional<runtime::LogicalByte> byte = runtime::byteAt(program, offset);
+    return byte ? std::string(program.spaces[byte->space].name) + " " + std::to_string(byte->byte)
+                : std::to_string(offset);
   }
   api::HostPlayer& now() { return versions_[now_]->player; }
 

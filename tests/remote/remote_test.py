@@ -8,10 +8,12 @@ import resource
 import shutil
 import signal
 import socket
+import struct
 import subprocess
 import sys
 import tempfile
 import unittest
+import zlib
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
@@ -688,11 +690,11 @@ permissions = ["set"]
 
 class FullDisk(Host):
     """What rungctl prints goes to a full disk: each command says so."""
-    map = MAP.replace('permissions = [', 'permissions = ["serve", ')
+    map = MAP.replace('permissions = [', 'permissions = ["serve", ') + '[recording]\nfolder = "recording"\n'
     build_options = ("--profile",)
     commands = {"hosts": [], "status": [], "messages": [], "get": ["X0.0"], "watch": ["X0.0"], "trace": ["X0.0", "-o", "{home}/full.vcd", "--for", "0.1"],
                 "set": ["D8:2", "1"], "event": ["reset"], "force": ["D8:2", "1"], "unforce": ["--all"], "forced": [], "reload": ["{program}"],
-                "rollback": [], "stop": [], "start": [], "reset": [], "map": [], "profile": [], "serve": [], "completion": ["bash"], "help": []}
+                "rollback": [], "mark": ["here"], "recording": ["--keep"], "stop": [], "start": [], "reset": [], "map": [], "profile": [], "serve": [], "completion": ["bash"], "help": []}
 
     def start(self):
         self.host = subprocess.Popen([BIN / "rung-run", self.program, self.home / "plc.map", "--name", "plc", "--simulate"],
@@ -717,13 +719,93 @@ class FullDisk(Host):
                     self.assertNotEqual(self.run_it(name, subprocess.PIPE).stdout, "")
 
 
+def blocks(path):
+    """(kind, events) of the blocks of a segment, and the bytes after them: docs/recording.md."""
+    data = path.read_bytes()
+    magic, version, mode, program, number, run, since, zero, checksum = struct.unpack("<8sIIQQQqII", data[:56])
+    assert (magic, version, zero, checksum) == (b"RUNGREC\n", 1, 0, zlib.crc32(data[:52])), path
+    found, at, unpacker = [], 56, None
+    while at + 32 <= len(data):
+        magic, kind, size, raw, wall, zero, checksum = struct.unpack("<4sIIIqII", data[at:at + 32])
+        packed = data[at + 32:at + 32 + size]
+        if len(packed) < size or magic != b"RBLK" or zlib.crc32(packed, zlib.crc32(data[at:at + 28])) != checksum:
+            break
+        if kind == 1:
+            unpacker = zlib.decompressobj(-15)
+        events = unpacker.decompress(packed)
+        assert len(events) == raw
+        found.append((kind, events))
+        at += 32 + size
+    return found, data[at:]
+
+
+class Recorded(Host):
+    """What happens to the program, in files beside its retained memory."""
+
+    def start(self):
+        self.host = subprocess.Popen([BIN / "rung-run", self.program, self.home / "plc.map", "--name", "plc", "--retain", self.home / "kept"],
+                                     stderr=self.log, env=self.environment, start_new_session=True)
+
+    def setUp(self):
+        shutil.rmtree(self.home / "kept.recording", ignore_errors=True)
+        super().setUp()
+
+    def segments(self):
+        return sorted((self.home / "kept.recording").glob("*.rec"))
+
+    def test_a_mark_is_in_files_that_are_kept(self):
+        self.assertIn("marked", self.ctl("mark", "the door is open"))
+        self.wait(lambda: any(b"the door is open" in events for path in self.segments() for _, events in blocks(path)[0]))
+        self.assertIn("00000001.kept.rec", [path.name for path in self.segments()])
+        answer = json.loads(self.ctl("recording", "--json"))
+        self.assertEqual((answer["folder"], answer["losses"]), (str(self.home / "kept.recording"), 0))
+        self.assertGreater(answer["written"], 1000)
+        self.assertNotIn("problem", answer)
+        self.assertIn("mark the door is open", self.logged())
+        self.assertIn("expected at most 400", self.ctl("mark", "x" * 401, status=WRONG))
+        programs = list((self.home / "kept.recording").glob("*.program"))
+        self.assertEqual([path.read_bytes() for path in programs], [self.program.read_bytes()])
+
+    def test_a_killed_host_leaves_whole_blocks(self):
+        self.wait(lambda: self.segments() and len(blocks(self.segments()[0])[0]) > 5)
+        self.host.kill()
+        self.host.wait(patience())
+        found, _ = blocks(self.segments()[0])
+        self.assertGreater(len(found), 5)
+        self.assertEqual(found[0][0], 1)
+        self.assertNotEqual(found[-1][0], 3)
+        self.socket.unlink()
+        self.start()  # and the next host continues in another file
+        self.wait(lambda: len(self.segments()) == 2)
+        self.end()
+        self.assertEqual(blocks(self.segments()[1])[0][-1][0], 3)
+        self.start()
+        self.wait(lambda: self.socket.exists())
+
+    def test_a_fault_is_kept(self):
+        self.ctl("set", "X0.1", "1")
+        self.wait(lambda: "has stopped" in self.ctl("messages"))
+        self.wait(lambda: "00000001.kept.rec" in [path.name for path in self.segments()])
+        self.ctl("set", "X0.1", "0")
+        self.ctl("reset")
+
+
+class NotRecorded(Host):
+    """Without retained memory the map says where."""
+
+    def test_nothing(self):
+        self.assertIn('[recording] folder = "PATH"', self.ctl("recording", status=WRONG))
+        self.assertIn('[recording] folder = "PATH"', self.ctl("mark", "a", status=WRONG))
+
+
 class History(Host):
     """Messages that came and went, over starts of the host."""
     program_text = PROGRAM.replace("OUT  Y0.0", "OUT  A0.2\nLD   X0.4\nOUT  A0.3")
 
     def setUp(self):
-        for path in self.home.glob("kept*"):
-            path.unlink()
+        for path in self.home.glob("kept.*"):
+            if path.is_file():
+                path.unlink()
         super().setUp()
 
     def start(self):

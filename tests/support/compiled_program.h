@@ -16,6 +16,7 @@ public:
 
   // Valid as long as this object.
   const rung_program& program() const { return engine_->program(); }
+  void* context() const { return engine_->context(); } // for Image::adopt
 
 private:
   compiler::Compiled compiled_;

@@ -8,6 +8,7 @@
 #include "rtlib/api/host_player.h"
 #include "rtlib/record/recording_reader.h"
 #include "tests/support/compiled_program.h"
+#include "tests/support/count_allocations.h"
 #include "tests/unit/host/bench.h"
 
 namespace rung::host {
@@ -116,7 +117,8 @@ constexpr Case kCases[] = {{"Gsk", "mill.pmc", kGsk, kGskMap, kMs, "D120"},
 
 // What a recording says, played.
 struct Replay {
-  Replay(const std::string& folder, const rung_program& program) : image(Image::adopt(program)) {
+  Replay(const std::string& folder, const rung::testing::CompiledProgram& program)
+      : image(Image::adopt(program.program(), program.context())) {
     std::string problem;
     std::optional<runtime::RecordingReader> recording = runtime::RecordingReader::open(folder, problem);
     EXPECT_TRUE(recording) << problem;
@@ -225,12 +227,54 @@ TEST_P(Recorded, IsPlayedByTheInterpreter) {
   EXPECT_EQ(info.losses, 0u);
   EXPECT_STREQ(info.problem, "");
   b.host.reset();
-  const Replay replay((folder / "rec").string(), again.program());
+  const Replay replay((folder / "rec").string(), again);
   EXPECT_GT(replay.parts, 4'000u);
   EXPECT_GE(replay.states, 3u);
   EXPECT_EQ(replay.losses, 0u);
   EXPECT_TRUE(replay.ended);
   EXPECT_THAT(replay.owner.marks, ::testing::ElementsAre("here"));
+}
+
+// With a whole state in the meantime.
+TEST_P(Recorded, AStepAllocatesNothing) {
+  work(100);
+  const int count = rung::test::allocationsOf([&] {
+    for (int i = 0; i < 12'000; ++i) {
+      b.values[0].bit = i % 7 < 3;
+      (void)b.host->step(GetParam().stepNs);
+    }
+  });
+  EXPECT_EQ(count, 0);
+}
+
+// The scan thread does not wait for the disk: a ring that nothing empties becomes full.
+TEST_P(Recorded, WhatFindsNoRoomIsLostAndSaid) {
+  rung_instance* plc = b.host->instance();
+  EXPECT_EQ(rung_instance_record(plc, nullptr), RUNG_OK);
+  plc->recorder = std::make_unique<api::HostRecorder>(*plc, runtime::RecorderOptions{.ringBytes = 1 << 16});
+  for (int i = 0; i < 30'000; ++i) {
+    b.values[0].bit = i % 2 != 0;
+    (void)b.host->step(GetParam().stepNs);
+  }
+  runtime::PartStream& stream = plc->recorder->stream();
+  EXPECT_GT(stream.losses(), 0u);
+  const auto empty = [&] {
+    std::vector<uint8_t> events;
+    for (auto record = stream.ring().front(); !record.empty(); record = stream.ring().front()) {
+      events.insert(events.end(), record.begin(), record.end());
+      stream.ring().pop();
+    }
+    return events;
+  };
+  (void)empty();
+  for (int i = 0; i < 20'000; ++i) (void)b.host->step(GetParam().stepNs);
+  stream.flush();
+  const std::vector<uint8_t> events = empty();
+  runtime::EventReader reader(events);
+  ASSERT_EQ(reader.takeEvent(), runtime::Event::Program) << "it begins anew with a state";
+  (void)reader.takeNumber();
+  EXPECT_EQ(reader.takeEvent(), runtime::Event::Lost);
+  plc->recorder.reset();
 }
 
 INSTANTIATE_TEST_SUITE_P(Dialects, Recorded, ::testing::ValuesIn(kCases),

@@ -26,7 +26,10 @@ constexpr uint64_t kProgram = 0xABCD;
 
 // Hands over a state or a part whose events are a text.
 void putState(PartStream& stream, uint64_t program = kProgram) {
-  const auto put = [](EventWriter& writer) noexcept { writer.put(Event::State, 0); };
+  const auto put = [](EventWriter& writer) noexcept {
+    writer.put(Event::State, 0);
+    return true;
+  };
   EXPECT_TRUE(stream.putState(program, 0, 64, put));
 }
 void putPart(PartStream& stream, const std::string& text) {

@@ -8,7 +8,7 @@
 
 namespace rung::bench {
 Replay::Replay(const rung::Image& image)
-    : instance_(image), inside_(api::insideOf(*instance_.handle())),
+    : image_(image), instance_(image), inside_(api::insideOf(*instance_.handle())),
       runPart_(instance_.handle()->control->runsInSlots() ? &rung_instance_slot : &rung_instance_scan) {
   instance_.powerOn(rung::Power::Cold);
 }
@@ -29,6 +29,10 @@ void Replay::write(const Part& part) {
     for (uint32_t i = 0; i < writes.bytes.size(); ++i)
       inside_.memory().writeByte(space, writes.byte + i, writes.bytes[i]);
   }
+  if (!own_.empty())
+    eachByte(part, [&](uint32_t space, uint32_t byte, uint32_t offset, uint32_t) {
+      if (own_[offset] == 0) instance_.handle()->recorder->written(inside_.memory().locate(space, byte, 1));
+    });
 }
 
 uint64_t Replay::hash() const {
@@ -54,15 +58,46 @@ uint64_t Replay::hashOfAll() const {
   return hash;
 }
 
+// each(space, byte, offset, bytes of the block) for each byte that the machine writes.
+template <class Each>
+void Replay::eachByte(const Part& part, Each each) const {
+  const core::Memory memory = inside_.memory();
+  for (const Writes& writes : part.writes) {
+    const uint32_t space = spaceOf(writes.space);
+    for (uint32_t i = 0; i < writes.bytes.size(); ++i) {
+      const bool expanded = memory.rangeOf(space, writes.byte + i)->repr == RUNG_REPR_BYTE_PER_BIT;
+      each(space, writes.byte + i, memory.locateBit(space, writes.byte + i, 0).offset(), expanded ? 8u : 1u);
+    }
+  }
+}
+
+std::vector<uint8_t> Replay::ownBytes(const Recording& recording) const {
+  Replay probe(image_);
+  const std::span<const uint8_t> block = probe.inside_.block();
+  std::vector<uint8_t> own(block.size()), written(block.size()), known(block.size());
+  const auto isOther = [&](size_t i) { return written[i] != 0 && known[i] != block[i]; };
+  for (const Part& part : recording.parts) {
+    for (size_t i = 0; i < block.size(); ++i)
+      if (isOther(i)) own[i] = 0;
+    probe.write(part);
+    probe.eachByte(part, [&](uint32_t, uint32_t, uint32_t offset, uint32_t bytes) {
+      for (uint32_t i = offset; i < offset + bytes; ++i) {
+        if (written[i] == 0) own[i] = 0xFF;
+        written[i] = 1;
+        known[i] = block[i];
+      }
+    });
+    probe.run();
+    probe.drain();
+  }
+  return own;
+}
+
 void Replay::record(const Recording& recording, const std::string& folder) {
-  std::vector<uint8_t> masks(inside_.block().size());
-  const core::Memory memory(inside_.program(), masks.data());
-  for (const Part& part : recording.parts)
-    for (const Writes& writes : part.writes)
-      for (uint32_t i = 0; i < writes.bytes.size(); ++i) memory.writeByte(spaceOf(writes.space), writes.byte + i, 0xFF);
+  own_ = ownBytes(recording);
   rung_instance& instance = *instance_.handle();
   instance.recorder = std::make_unique<api::HostRecorder>(instance, runtime::RecorderOptions{});
-  auto inputs = std::make_unique<runtime::InputBits>(masks);
+  auto inputs = std::make_unique<runtime::InputBits>(own_);
   instance.recorder->programChanged(inputs);
   writer_ = std::make_unique<runtime::RecordingWriter>(instance.recorder->stream(), runtime::RecordingMode::Control,
                                                        runtime::RecordingOptions{.folder = folder});

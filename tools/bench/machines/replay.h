@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "rtlib/record/recording_writer.h"
 #include "rtlib/run/instance.h"
@@ -22,8 +23,9 @@ public:
   void run() noexcept { runPart_(instance_.handle()); }
   // Hash of all bytes of all spaces, the clock and the fault.
   uint64_t hash() const;
-  // From now on what the machine writes is recorded in a folder, as inputs of a host that writes all places of the
-  // recording before each part. `recorded` packs what has come since the last call; returns their state so far.
+  // From now on what the machine writes is recorded in a folder: bytes that only it writes as those of bound variables,
+  // the others as values that a client writes. `recorded` packs what has come since the last call; returns their state
+  // so far.
   void record(const Recording& recording, const std::string& folder);
   runtime::RecordingState recorded();
   // Empties the queues that a host would empty between two parts.
@@ -31,11 +33,16 @@ public:
   const runtime::Instance& inside() const { return inside_; }
 
 private:
+  std::vector<uint8_t> ownBytes(const Recording& recording) const;
+  template <class Each>
+  void eachByte(const Part& part, Each each) const;
   uint64_t hashOfAll() const;
   uint32_t spaceOf(const std::string& name) const;
 
+  const rung::Image& image_;
   rung::Instance instance_;
   runtime::Instance& inside_;
+  std::vector<uint8_t> own_; // by offset in the block: written by the machine alone
   std::unique_ptr<runtime::RecordingWriter> writer_;
   int32_t (*runPart_)(rung_instance*);
 };

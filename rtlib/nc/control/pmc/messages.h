@@ -59,8 +59,11 @@ public:
   template <class Archive>
   void state(Archive& archive) {
     archive(reported_);
-    for (uint32_t at = 0; at < reportedAs_.size(); ++at)
-      if ((reported_[at / 8] >> at % 8 & 1) != 0) archive(reportedAs_[at].number, reportedAs_[at].key);
+    for (uint32_t byte = 0; byte < reported_.size(); ++byte)
+      for (uint32_t bits = reported_[byte]; bits != 0; bits &= bits - 1) {
+        auto& as = reportedAs_[8 * byte + static_cast<uint32_t>(std::countr_zero(bits))];
+        archive(as.number, as.key);
+      }
     if constexpr (Archive::kLoads)
       for (Look* look : {&allReported_, &stated_, &states_}) look->forget();
   }

@@ -39,6 +39,7 @@ std::optional<core::Code> ServedOwner::codeFor(const runtime::Forcing& forcing) 
 HostPlayer::HostPlayer(rung_image* image, runtime::PlayerOwner& owner) : owner_(owner) {
   const rung_instance_options options{.size = sizeof options, .user = this, .request = &HostPlayer::request};
   if (newInstance(image, &options, nullptr, &instance_) != RUNG_OK) throw std::runtime_error(errorText());
+  bits_ = runtime::bitBytes(running().program());
 }
 
 HostPlayer::~HostPlayer() { (void)rung_instance_free(instance_); }
@@ -55,7 +56,7 @@ std::vector<uint8_t> HostPlayer::state() {
   if (!whole_ || !inputs_ || !saveState(*instance_, counted, Waiting::LeftOut)) return {};
   const std::span<const core::ForcedBits> forced = running().forcedBits();
   constexpr size_t kNumber = 10; // bytes of one, at most
-  size_t room = counted.size() + 2 * inputs_->listed() + inputs_->bytes() + (16 + 3 * forced.size()) * kNumber;
+  size_t room = counted.size() + inputs_->listed() + 2 * inputs_->bytes() + (16 + 3 * forced.size()) * kNumber;
   for (const Configured& one : configured_) room += one.text.size() + 6 * kNumber;
   std::vector<uint8_t> events(room);
   runtime::EventWriter writer(events);
@@ -168,7 +169,7 @@ bool HostPlayer::takeBefore(Event event) {
     const uint64_t offset = reader_.takeNumber();
     const std::span<const uint8_t> bytes = reader_.takeBytes(reader_.takeNumber());
     const std::span<uint8_t> block = running().block();
-    if (!reader_.good() || !inputs_ || offset > block.size() || bytes.size() > block.size() - offset) return false;
+    if (!reader_.good() || !inputs_ || !runtime::mayWrite(bits_, offset, bytes)) return false;
     if (event == Event::Input)
       inputs_->set(offset, bytes);
     else
@@ -225,7 +226,7 @@ bool HostPlayer::takeForces() {
   std::vector<core::ForcedBits> bits;
   for (uint64_t count = reader_.takeNumber(); count != 0 && reader_.good(); --count) {
     const uint32_t offset = reader_.takeNumber32(), mask = reader_.takeNumber32(), value = reader_.takeNumber32();
-    if (offset >= running().program().memory_size || mask > 255 || value > 255) return false;
+    if (offset >= bits_.size() || mask > (bits_[offset] ? 1 : 255) || value > mask) return false;
     bits.push_back({offset, static_cast<uint8_t>(mask), static_cast<uint8_t>(value)});
   }
   return reader_.good() && owner_.force(running(), bits);

@@ -9,6 +9,7 @@
 #include "rtlib/api/instance.h"
 #include "rtlib/record/input_bits.h"
 #include "rtlib/record/player.h"
+#include "rtlib/record/watched_bytes.h"
 
 namespace rung::api {
 
@@ -76,6 +77,7 @@ private:
   runtime::EventReader reader_{{}};
   std::optional<runtime::InputBits> inputs_, nextInputs_; // those of the next state
   std::vector<Configured> configured_;                    // that the control has
+  runtime::BlockBytes bits_;
   bool neededOnly_ = false;
   bool served_ = false;
   bool whole_ = false;

@@ -47,6 +47,14 @@ void InputBits::makeList() {
   list_.resize(writer.size());
 }
 
+void InputBits::listKnown(EventWriter& writer) const noexcept {
+  for (const Piece& piece : pieces_) {
+    const auto bytes = std::bit_cast<std::array<uint8_t, kPiece>>(piece.known);
+    writer.put(Event::Input, piece.offset, kPiece);
+    writer.putBytes(bytes);
+  }
+}
+
 std::optional<InputBits> InputBits::fromList(size_t blockBytes, EventReader& reader) {
   std::vector<uint8_t> masks(blockBytes);
   uint64_t end = 0;

@@ -63,6 +63,8 @@ public:
   uint32_t lastNumber() const { return number_; } // of its task or fault
   // What was different in the last call; nothing if all was as recorded.
   const std::optional<PlayedDifference>& difference() const { return difference_; }
+  // Whether outputs are compared after each part, as they are at first; states are in any case.
+  void compareOutputs(bool compares);
   // The state that the recording has at this place is compared with that of the instance, if there is one.
   bool isWhole() const { return whole_; }
 
@@ -95,8 +97,10 @@ private:
   EventReader reader_{{}};
   Surroundings surroundings_;
   BlockBytes written_; // by the program
+  BlockBytes bits_;
   std::optional<WatchedBytes> outputs_;
   uint32_t outputsHash_ = 0;
+  bool comparesOutputs_ = true;
   bool whole_ = false;
   bool failed_ = false;
   PartKind kind_ = PartKind::Scan; // of the last part

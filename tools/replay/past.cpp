@@ -41,6 +41,7 @@ Result<void> Past::useStage(uint32_t number) {
     Result<std::unique_ptr<Stage>> made = Stage::make(*recording_.programs[number], options_.engine, recording_.mode);
     if (!made.ok()) return made.failure();
     stages_[number] = std::move(made).value();
+    stages_[number]->player().compareOutputs(comparesOutputs_);
   }
   stageNumber_ = number;
   return {};
@@ -171,6 +172,12 @@ bool Past::next() {
     case Played::Damaged: problem_ = fmt::format("the recording is damaged after part {}", part_); return false;
     }
   }
+}
+
+void Past::compareOutputs(bool compares) {
+  comparesOutputs_ = compares;
+  for (const std::unique_ptr<Stage>& stage : stages_)
+    if (stage) stage->player().compareOutputs(compares);
 }
 
 void Past::takeSent() {

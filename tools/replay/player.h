@@ -22,6 +22,7 @@ public:
   virtual size_t position() const = 0;
   virtual runtime::Played play() = 0;
   virtual const std::optional<runtime::PlayedDifference>& difference() const = 0;
+  virtual void compareOutputs(bool compares) = 0;
   virtual uint64_t repeatsLeft() const = 0;
   virtual runtime::PartKind lastKind() const = 0;
   virtual uint32_t lastNumber() const = 0;

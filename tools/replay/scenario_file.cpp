@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <filesystem>
 #include <fmt/format.h>
+#include <memory>
 #include <vector>
 
 #include "compiler/project.h"
 #include "ir/support/put.h"
-#include "rtlib/nc/names/names.h"
+#include "rtlib/nc/control/control.h"
+#include "sim/simulated_nc.h"
 #include "tools/report/place_names.h"
 #include "tools/scenario/words.h"
 
@@ -18,7 +20,8 @@ namespace {
 // Sees the memory at the beginning of each part, when others have written.
 class Inputs final : public runtime::OutsideWatch {
 public:
-  explicit Inputs(std::string& text) : text_(text) {}
+  Inputs(const Past& past, std::string& text)
+      : uses_(*past.compiled().uses), nc_(sim::makeSimulatedNc(past.instance().program().dialect)), text_(text) {}
 
   void know(const runtime::Instance& instance) { known_.assign(instance.block().begin(), instance.block().end()); }
   void begins(const runtime::Instance& instance, runtime::PartKind kind, uint32_t) noexcept override {
@@ -52,14 +55,14 @@ public:
   }
 
 private:
-  // The bits of inputs that are others than before.
+  // The bits that are others than after the last part.
   void compare(const runtime::Instance& instance) {
     const rung_program& program = instance.program();
     const core::Memory before(program, known_.data());
     const core::Memory now = instance.memory();
     for (uint32_t s = 0; s < program.space_count; ++s) {
       const rung_space& space = program.spaces[s];
-      if ((space.flags & RUNG_SPACE_INPUT) == 0 || (space.flags & RUNG_SPACE_HIDDEN) != 0) continue;
+      if ((space.flags & RUNG_SPACE_HIDDEN) != 0) continue;
       for (uint32_t byte = 0; byte < space.byte_count; ++byte) {
         const uint8_t changed = before.readByte(s, byte) ^ now.readByte(s, byte);
         for (uint32_t bit = 0; changed != 0 && bit < 8; ++bit)
@@ -68,12 +71,16 @@ private:
     }
   }
   void set(const rung_program& program, const runtime::Ref& bit, bool value) {
+    // What is copied over, or what the control itself writes, does not last.
+    if (!uses_.copiedFrom(report::bitsOf(bit)).empty() || nc_->control().writesItself(program, bit)) return;
     const std::string name = report::writtenName(program, bit);
     if (name.empty()) return;
     flush();
     rung::put(text_, "set {} {}\n", scenario::asWord(name), value ? 1 : 0);
   }
 
+  const ir::Uses& uses_;
+  std::unique_ptr<sim::SimulatedNc> nc_;
   std::string& text_;
   std::vector<uint8_t> known_;
   runtime::PartKind kind_ = runtime::PartKind::Scan;
@@ -109,7 +116,7 @@ Result<std::string> scenarioOf(Past& past, const std::string& path, uint64_t fro
   if (std::string problem = past.goTo(from); !problem.empty()) return failure(problem);
   std::string text = fmt::format("# scans {} to {} of a recording\n", from + 1, to);
   putProgram(past, path, text);
-  Inputs inputs(text);
+  Inputs inputs(past, text);
   {
     FlowEngine& engine = past.flowEngine(); // whose new instance is as after a cold start
     const runtime::Instance cold(engine.engine());

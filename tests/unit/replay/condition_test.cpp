@@ -14,7 +14,7 @@ namespace {
 class Conditions : public ::testing::Test {
 protected:
   Conditions()
-      : program_("t.pmc", "dialect gsk\nsymbol GO X0.0\nsymbol SPEED D100:2\nFUNC END1\nLD GO\nOUT Y0.0\nFUNC END2\n",
+      : program_("t.pmc", "dialect gsk\nsymbol GO X0.0\nFUNC END1\nLD GO\nOUT Y0.0\nFUNC END2\n",
                  compiler::EngineKind::Interp),
         block_(program_.program().memory_size + 64) {}
 
@@ -40,13 +40,13 @@ protected:
 
 TEST_F(Conditions, CompareAndCombine) {
   set("GO", 1);
-  set("SPEED", 0xFFFE); // -2
+  set("D100:2", 0xFFFE); // -2
   set("D10", 5);
-  for (const char* text : {"GO", "GO = 1", "GO=on", "not GO = 0", "SPEED = -2", "SPEED = 65534", "SPEED<0", "D10 > 4.5",
-                           "D10>=5 and D10 <= 5", "SPEED < D10", "D10 != 4", "GO and (D10 = 4 or D10 = 5)", "(GO)",
-                           "X0.1 or GO", "D10 = 0x5", "-3 < SPEED"})
+  for (const char* text : {"GO", "GO = 1", "GO=on", "not GO = 0", "D100:2 = -2", "D100:2 = 65534", "D100:2<0",
+                           "D10 > 4.5", "D10>=5 and D10 <= 5", "D100:2 < D10", "D10 != 4",
+                           "GO and (D10 = 4 or D10 = 5)", "(GO)", "X0.1 or GO", "D10 = 0x5", "-3 < D100:2"})
     EXPECT_TRUE(holds(text)) << text;
-  for (const char* text : {"not GO", "GO = 0", "SPEED > 0", "D10 < 5", "GO and D10 = 4", "X0.1", "rises GO"})
+  for (const char* text : {"not GO", "GO = 0", "D100:2 > 0", "D10 < 5", "GO and D10 = 4", "X0.1", "rises GO"})
     EXPECT_FALSE(holds(text)) << text;
 }
 

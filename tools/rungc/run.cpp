@@ -18,6 +18,7 @@
 #include "tools/rungc/commands.h"
 #include "tools/rungc/retained_files.h"
 #include "tools/rungc/scenarios.h"
+#include "tools/rungc/web.h"
 #include "tools/scenario/compile_step.h"
 #include "tools/scenario/console.h"
 #include "tools/scenario/prompt.h"
@@ -40,6 +41,8 @@ struct RunOptions {
   RunScenario scenario;
   std::string trace;
   bool prompt = false;
+  bool web = false;
+  std::string listen = "127.0.0.1:0";
   bool realtime = false;
   runtime::RealTimeOptions thread; // for a real-time run
   bool debugger = false;
@@ -74,6 +77,7 @@ void catchSignals() {
 struct Program {
   std::optional<compiler::Compiled> compiled; // nothing for a shared object
   std::unique_ptr<runtime::Engine> engine;    // destroyed before `compiled`
+  WebFlow flow;                               // what the engine shows the page
   const runtime::SoEngine* object = nullptr;  // the same engine, if it is a shared object
   std::optional<compiler::Compiled> carried;  // of a shared object, its embedded IR, loaded on first use
 
@@ -188,7 +192,7 @@ private:
       if (const std::string wrong = watch_.add(name, session_); !wrong.empty()) return usageError("--watch: " + wrong);
     session_.addObserver(watch_);
     if (const int status = openTrace(); status != kOk) return status;
-    const bool asked = options_.prompt || !options_.scenarioFile.empty();
+    const bool asked = options_.prompt || options_.web || !options_.scenarioFile.empty();
     explainer_ = std::make_unique<scenario::Explainer>(session_, asked ? first().uses() : nullptr);
     session_.addObserver(*explainer_);
     return kOk;
@@ -214,6 +218,7 @@ private:
     scenario::Console console(session_, watch_, recording_, *explainer_, print_);
     if (const int status = setInputs(); status != kOk) return status;
     int status = runScenario(console);
+    if (options_.web) return status == kOk ? showPage() : status;
     if (status == kOk) status = runScans(console);
     if (!options_.prompt || gSignal == SIGTERM) return status;
     gSignal = 0;
@@ -273,6 +278,14 @@ private:
       return console.execute(advance) == scenario::Outcome::Failed ? kWrong : kOk;
     }
     return kOk;
+  }
+
+  // Until the user stops it.
+  int showPage() {
+    session_.setUnattended();
+    session_.setInterrupt({});
+    return serveSession(options_.source, options_.listen, *first().compiled, session_, *explainer_, first().flow,
+                        [] { return gSignal != 0; });
   }
 
   int runRealTime(const scenario::Statement& end) {
@@ -383,7 +396,10 @@ std::optional<Program> openSharedObject(const RunOptions& options, const std::st
 }
 
 std::optional<Program> compileProgram(const RunOptions& options, const SourceOptions& source, int& status) {
-  const std::string name = !options.engine.empty() ? options.engine : options.debugger ? "jit" : "tiered";
+  const std::string name = !options.engine.empty() ? options.engine
+                           : options.web           ? "interp"
+                           : options.debugger      ? "jit"
+                                                   : "tiered";
   const auto kind = compiler::engineFromName(name);
   if (!kind) {
     status = usageError(fmt::format("unknown engine '{}'; the engines are interp, cpp, llvm, jit and tiered", name));
@@ -391,7 +407,8 @@ std::optional<Program> compileProgram(const RunOptions& options, const SourceOpt
   }
   SourceManager sources;
   compiler::CompileRequest request;
-  request.keepBuilt = options.prompt || !options.scenarioFile.empty(); // for forces by the prompt or a scenario
+  request.keepBuilt = options.prompt || options.web || !options.scenarioFile.empty(); // for forces
+  request.marks = options.web;
   if (options.scenario.periodUs > 0) request.options.config["period_us"] = std::to_string(options.scenario.periodUs);
   Program program;
   program.compiled = compileChecked(sources, source, request, status);
@@ -401,6 +418,7 @@ std::optional<Program> compileProgram(const RunOptions& options, const SourceOpt
   engineOptions.optimise = options.level != "0";
   engineOptions.cacheFolder = options.cache;
   engineOptions.virtualClock = !options.realtime;
+  if (options.web) engineOptions.observer = program.flow.observer();
   Result<std::unique_ptr<runtime::Engine>> engine = [&] {
     const scenario::Working working("compiling to machine code");
     return compiler::makeEngine(*kind, *program.compiled, engineOptions);
@@ -430,6 +448,10 @@ int runProgram(RunOptions& options) {
   if (!options.trace.empty())
     if (const std::string wrong = scenario::traceFileProblem(options.trace); !wrong.empty())
       return usageError("--trace: " + wrong);
+  if (options.web)
+    if (const std::string wrong = webProblem(options.listen, isSharedObject(options.source.files), options.engine);
+        !wrong.empty())
+      return usageError(wrong);
   int status = kOk;
   auto config = configPairs(options.source.config, status);
   if (!config) return status;
@@ -463,8 +485,19 @@ void addRun(CommandLine& app, int& status) {
   command.option("--watch", options->watch, "Names whose changes are printed");
   command.option("--trace", options->trace,
                  "Write the values of the watched names, or of all names that the rungs use, to FILE.vcd or FILE.csv");
-  Option realtime =
-      command.flag("--realtime", options->realtime, "Run on the computer's clock").excludes(scenario).excludes(prompt);
+  Option web =
+      command
+          .flag("--web", options->web,
+                "Then show the program in a browser: prints a link; runs at the pace of the program's clock on "
+                "the interpreter")
+          .excludes(prompt);
+  command.option("--listen", options->listen, "Address for --web, such as 8080 or 192.168.0.5:8080")
+      .needs(web)
+      .showDefault();
+  Option realtime = command.flag("--realtime", options->realtime, "Run on the computer's clock")
+                        .excludes(scenario)
+                        .excludes(prompt)
+                        .excludes(web);
   command
       .option("--priority", options->thread.priority,
               "Real-time priority of the run, 1 to 99 (SCHED_FIFO); default: ordinary scheduling")

@@ -14,11 +14,15 @@ std::string escaped(std::string_view text);
 
 // Lines and texts of a rung, for a <g> or <svg>. On a page, names link to their rows.
 void appendPicture(std::string& out, const Picture& picture, bool onPage);
+// The same for a page that follows a running program: what has power is drawn cell by cell, with the index of the cell
+// in `data-n` (wires, by what gives them power) or `data-c` (contacts, coils, boxes), with its name and NameRow::id,
+// and `data-v` is "CELL.OPERAND".
+void appendLivePicture(std::string& out, const Picture& picture, const Sheet& sheet);
 // The CSS that pictures need; on a page, colours are referred to by name (see style.h).
 std::string pictureStyle(bool onPage);
 
-// The x of the right rail for all rungs that can be cut to it.
-int commonRail(const Program& program);
+// The x of the right rail for all rungs that can be cut to it. `valueSpace`: see layOut.
+int commonRail(const Program& program, int valueSpace = 0);
 // Such as "Rung 3: start/stop latch".
 std::string nameOf(const Figure& figure);
 // Such as "main.lad:12"; "" if there is no position.

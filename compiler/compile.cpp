@@ -114,7 +114,7 @@ std::optional<Compiled> compile(SourceManager& sources, std::span<const FileId> 
   out.uses = std::make_unique<ir::Uses>(*out.module);
   if (request.branches != nullptr) out.branchWeights = ir::setBranchWeights(*out.module, *request.branches);
   if (request.keepBuilt || request.compare) out.built = std::make_unique<ir::Module>(*out.module);
-  out.passes.optimise = request.optimise && !request.marks && !request.compare;
+  out.passes.optimise = request.optimise && !request.compare;
   out.passes.instrument = request.instrument;
   ended("uses");
   out.shape = std::make_unique<ir::Module>();

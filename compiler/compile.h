@@ -31,7 +31,7 @@ struct CompileRequest {
   std::string name;                 // of the project; empty: the program has the name of its first file
   frontend::CompileOptions options; // configuration and strictness
   bool instrument = false;          // count and time rungs
-  bool marks = false;               // mark contacts and coils; the module stays as built
+  bool marks = false;               // mark contacts and coils
   bool compare = false;             // keep what a comparison of the module as built with that of another version needs
   bool optimise = true;
   bool keepBuilt = false;  // for recompilation (recompiler.h)
@@ -52,7 +52,8 @@ struct Compiled {
   ir::PassOptions passes;                // the passes from `shape` to `module`
   ir::BranchWeightsResult branchWeights; // from the branch counts of the request
   std::unique_ptr<ir::Layout> layout;    // of `shape`, applied to `module`
-  ir::Marks marks;                       // if requested
+  // If requested: of the module as built, and of `shape`, by rungs as built (Rung::origin). Not of an optimised module.
+  ir::Marks marks;
   ir::GivenNumbers given;                // of `built`, for a comparison
   frontend::CompileOptions options;      // of the request
   std::unique_ptr<ir::Uses> uses;        // of the module as built

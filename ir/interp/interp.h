@@ -18,6 +18,16 @@
 
 namespace rung::ir {
 
+// An access of an operation to memory or to a slot.
+struct Access {
+  uint32_t rung = 0;      // over all routines
+  uint32_t operation = 0; // index in the rung
+  BitRange place;         // of a slot: in no space
+  SlotId slot;            // invalid: memory
+  uint64_t value = 0;     // read or written
+  bool writes = false;
+};
+
 // Observes runs of rungs, e.g. to measure coverage. Called on the thread that runs the program.
 class RungObserver {
 public:
@@ -25,8 +35,8 @@ public:
   // Called after the rung with this number (over all routines) has run; `values` holds the bits of its values, 0 in
   // regions that were not entered. No values: it stopped the program with a fault.
   virtual void rungRan(uint32_t number, std::span<const uint64_t> values) = 0;
-  // Called when an operation of the rung reads or writes bits of a space.
-  virtual void touched(uint32_t /*number*/, const BitRange& /*place*/, bool /*writes*/) {}
+  // Called after each access of a rung, in their order, before its rungRan.
+  virtual void accessed(const Access& /*access*/) {}
 };
 
 // What the profile counters of an instrumented module count.

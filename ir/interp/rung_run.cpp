@@ -57,43 +57,52 @@ void RungRun::writeBit(BitLocation at, bool value) {
     mem_[at.offset] = static_cast<uint8_t>(value ? mem_[at.offset] | mask : mem_[at.offset] & ~mask);
 }
 
-void RungRun::touch(const Op& op, uint64_t bit, bool writes) const {
+void RungRun::tell(const Op& op, const BitRange& place, SlotId slot, uint64_t value, bool writes) const {
   if (observer_ == nullptr) return;
-  observer_->touched(number_, {SpaceId{op.ref}, static_cast<uint32_t>(bit), bitWidth(op.type)}, writes);
+  observer_->accessed({.rung = number_,
+                       .operation = static_cast<uint32_t>(&op - rung_.ops.data()),
+                       .place = place,
+                       .slot = slot,
+                       .value = value,
+                       .writes = writes});
+}
+
+void RungRun::tellMemory(const Op& op, uint64_t bit, uint64_t value, bool writes) const {
+  tell(op, {SpaceId{op.ref}, static_cast<uint32_t>(bit), bitWidth(op.type)}, {}, value, writes);
 }
 
 void RungRun::load(const Op& op) {
   const auto place = static_cast<uint64_t>(op.imm);
   const SpaceId space{op.ref};
-  touch(op, place, false);
   give(op, op.type == Type::Bit ? readBit(layout_.bit(space, place))
                                 : readBytes(layout_.byte(space, static_cast<uint32_t>(place / 8)), op.type));
+  tellMemory(op, place, values_[op.result.index], false);
 }
 
 void RungRun::store(const Op& op) {
   const auto place = static_cast<uint64_t>(op.imm);
   const SpaceId space{op.ref};
-  touch(op, place, true);
   if (op.type == Type::Bit)
     writeBit(layout_.bit(space, place), in(op, 0) != 0);
   else
     writeBytes(layout_.byte(space, static_cast<uint32_t>(place / 8)), op.type, in(op, 0));
+  tellMemory(op, place, in(op, 0), true);
 }
 
 void RungRun::loadAt(const Op& op) {
   const auto index = static_cast<uint32_t>(in(op, 0));
   if (index >= op.count) return give(op, 0);
   const auto byte = static_cast<uint32_t>(op.imm / 8) + index * unitBytes(op);
-  touch(op, uint64_t{byte} * 8, false);
   give(op, readBytes(layout_.byte(SpaceId{op.ref}, byte), op.type));
+  tellMemory(op, uint64_t{byte} * 8, values_[op.result.index], false);
 }
 
 void RungRun::storeAt(const Op& op) {
   const auto index = static_cast<uint32_t>(in(op, 0));
   if (index >= op.count) return;
   const auto byte = static_cast<uint32_t>(op.imm / 8) + index * unitBytes(op);
-  touch(op, uint64_t{byte} * 8, true);
   writeBytes(layout_.byte(SpaceId{op.ref}, byte), op.type, in(op, 1));
+  tellMemory(op, uint64_t{byte} * 8, in(op, 1), true);
 }
 
 void RungRun::loadBitAt(const Op& op) {
@@ -102,8 +111,8 @@ void RungRun::loadBitAt(const Op& op) {
   const uint32_t unitBits = unitBytes(op) * 8;
   if (index >= op.count || bit >= unitBits) return give(op, 0);
   const uint64_t place = static_cast<uint64_t>(op.imm) + uint64_t{index} * unitBits + bit;
-  touch(op, place, false);
   give(op, readBit(layout_.bit(SpaceId{op.ref}, place)));
+  tellMemory(op, place, values_[op.result.index], false);
 }
 
 void RungRun::storeBitAt(const Op& op) {
@@ -112,8 +121,21 @@ void RungRun::storeBitAt(const Op& op) {
   const uint32_t unitBits = unitBytes(op) * 8;
   if (index >= op.count || bit >= unitBits) return;
   const uint64_t place = static_cast<uint64_t>(op.imm) + uint64_t{index} * unitBits + bit;
-  touch(op, place, true);
   writeBit(layout_.bit(SpaceId{op.ref}, place), in(op, 2) != 0);
+  tellMemory(op, place, in(op, 2), true);
+}
+
+void RungRun::slotLoad(const Op& op) {
+  give(op, op.type == Type::Bit ? readBit({slotOffset(op), 0, true}) : readBytes(slotOffset(op), op.type));
+  tell(op, {}, SlotId{op.ref}, values_[op.result.index], false);
+}
+
+void RungRun::slotStore(const Op& op) {
+  if (op.type == Type::Bit)
+    writeBit({slotOffset(op), 0, true}, in(op, 0) != 0);
+  else
+    writeBytes(slotOffset(op), op.type, in(op, 0));
+  tell(op, {}, SlotId{op.ref}, in(op, 0), true);
 }
 
 // ---- regions -------------------------------------------------------------------------------------------------------
@@ -216,15 +238,8 @@ size_t RungRun::step(const Op& op, size_t index) {
   case OpCode::StoreAt: storeAt(op); break;
   case OpCode::LoadBitAt: loadBitAt(op); break;
   case OpCode::StoreBitAt: storeBitAt(op); break;
-  case OpCode::SlotLoad:
-    give(op, op.type == Type::Bit ? readBit({slotOffset(op), 0, true}) : readBytes(slotOffset(op), op.type));
-    break;
-  case OpCode::SlotStore:
-    if (op.type == Type::Bit)
-      writeBit({slotOffset(op), 0, true}, in(op, 0) != 0);
-    else
-      writeBytes(slotOffset(op), op.type, in(op, 0));
-    break;
+  case OpCode::SlotLoad: slotLoad(op); break;
+  case OpCode::SlotStore: slotStore(op); break;
   case OpCode::Now: give(op, static_cast<uint64_t>(ctx_.now_us)); break;
   case OpCode::If: return beginIf(op, index);
   // After the branch above an else has run, its yields become the results of the endif.

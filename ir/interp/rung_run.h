@@ -33,7 +33,8 @@ private:
   uint64_t readBit(BitLocation at) const;
   void writeBit(BitLocation at, bool value);
   uint32_t slotOffset(const Op& op) const { return layout_.slot(SlotId{op.ref}); }
-  void touch(const Op& op, uint64_t bit, bool writes) const;
+  void tell(const Op& op, const BitRange& place, SlotId slot, uint64_t value, bool writes) const;
+  void tellMemory(const Op& op, uint64_t bit, uint64_t value, bool writes) const;
   uint32_t unitBytes(const Op& op) const { return layout_.module().spaces[op.ref].unitBytes; }
 
   void load(const Op& op);
@@ -42,6 +43,8 @@ private:
   void storeAt(const Op& op);
   void loadBitAt(const Op& op);
   void storeBitAt(const Op& op);
+  void slotLoad(const Op& op);
+  void slotStore(const Op& op);
 
   size_t beginIf(const Op& op, size_t index);
   size_t beginLoop(const Op& op, size_t index);

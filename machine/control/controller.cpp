@@ -54,6 +54,9 @@ const Controller::Request Controller::kRequests[] = {
     {"shadow", host::Remote::Reload, Request::by<&Controller::changes_, &Changes::shadow>},
     {"compared", {}, Request::by<&Controller::changes_, &Changes::compared>},
     {"rollback", host::Remote::Reload, Request::by<&Controller::changes_, &Changes::rollback>},
+    {"mark", {}, Request::own<&Controller::mark>},
+    {"keep", {}, Request::own<&Controller::keep>},
+    {"recording", {}, Request::own<&Controller::recording>},
     {"stop", host::Remote::Stop, Request::own<&Controller::stop>},
     {"start", host::Remote::Start, Request::own<&Controller::start>},
     {"reset", host::Remote::Reset, Request::own<&Controller::reset>},
@@ -115,6 +118,45 @@ json Controller::stop(const Peer& peer, const json&) {
   plc_.logChange(peer, "stop" + forces_.endedForces());
   forces_.refusePending("the program has been stopped in the meantime; all forces have ended");
   return json::object();
+}
+
+namespace {
+
+void checkRecorded(int32_t status) {
+  if (status == RUNG_WRONG_STATE)
+    throw Refused("this host does not record its program; the mapping file says where: [recording] folder = \"PATH\"");
+  check(status);
+}
+
+} // namespace
+
+json Controller::mark(const Peer& peer, const json& request) {
+  constexpr size_t kMost = 400;
+  const std::string text = textOf(request, "text");
+  if (text.size() > kMost)
+    throw Refused("found a text of " + std::to_string(text.size()) + " bytes, expected at most 400");
+  checkRecorded(rung_instance_mark(plc_.instance(), text.c_str()));
+  plc_.logChange(peer, "mark " + text);
+  return json::object();
+}
+
+json Controller::keep(const Peer& peer, const json&) {
+  checkRecorded(rung_instance_keep_recording(plc_.instance()));
+  plc_.logChange(peer, "keep the recording of now");
+  return json::object();
+}
+
+// `follow`: what is recorded is written more often for two seconds.
+json Controller::recording(const Peer&, const json& request) {
+  const json follow = request.value("follow", json(false));
+  if (!follow.is_boolean()) throw Refused("found " + follow.dump() + " for \"follow\", expected true or false");
+  if (follow.get<bool>()) checkRecorded(rung_instance_follow_recording(plc_.instance()));
+  auto info = sized<rung_recording_info>();
+  checkRecorded(rung_instance_recording(plc_.instance(), &info));
+  json answer = {{"folder", info.folder}, {"file", info.file},       {"since", info.since_us / 1'000'000},
+                 {"bytes", info.bytes},   {"written", info.written}, {"losses", info.losses}};
+  if (*info.problem != 0) answer["problem"] = info.problem;
+  return answer;
 }
 
 json Controller::event(const Peer& peer, const json& request) {

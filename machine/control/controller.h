@@ -63,6 +63,9 @@ private:
   nlohmann::json start(const Peer& peer, const nlohmann::json& request);
   nlohmann::json reset(const Peer& peer, const nlohmann::json& request);
   nlohmann::json clearProfile(const Peer& peer, const nlohmann::json& request);
+  nlohmann::json mark(const Peer& peer, const nlohmann::json& request);
+  nlohmann::json keep(const Peer& peer, const nlohmann::json& request);
+  nlohmann::json recording(const Peer& peer, const nlohmann::json& request);
   nlohmann::json event(const Peer& peer, const nlohmann::json& request);
   nlohmann::json simple(host::Command::Kind kind, const Peer& peer, const char* what);
 

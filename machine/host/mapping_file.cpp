@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <cstring>
 #include <iterator>
 #include <stdexcept>
@@ -98,8 +99,9 @@ private:
   template <class Row>
   using Key = text::TomlKey<Reader, Row>;
 
-  static const Key<File> kFileKeys[18];
+  static const Key<File> kFileKeys[19];
   static const Key<File> kRemoteKeys[2];
+  static const Key<RecordingSetting> kRecordingKeys[4];
   static const Key<PinRow> kType, kName, kScale, kBits, kValue, kSafe;
   static const Key<PinRow> kInputKeys[4], kOutputKeys[5], kParameterKeys[4];
   static const Key<SendRow> kSendKeys[6];
@@ -165,6 +167,28 @@ private:
     if (table != nullptr) readKeys(*table, "rungctl", kRemoteKeys, map);
     return table != nullptr;
   }
+  bool takeRecording(const toml::node& node, File& map) {
+    const toml::table* table = node.as_table();
+    if (table != nullptr) readKeys(*table, "recording", kRecordingKeys, map.recording);
+    return table != nullptr;
+  }
+  bool takeRecordingOff(const toml::node& node, RecordingSetting& setting) {
+    const std::optional<bool> off = node.value_exact<bool>();
+    setting.off = off.value_or(false);
+    return off.has_value();
+  }
+  bool takeRecordingFolder(const toml::node& node, RecordingSetting& setting) {
+    const std::string folder = text::stringOf(node);
+    if (!folder.empty()) setting.folder = beside(map().paths[file()], folder);
+    return !folder.empty();
+  }
+  bool takeRecordingLimit(const toml::node& node, RecordingSetting& setting) {
+    return takeBytes(node, setting.limitBytes);
+  }
+  bool takeRecordingKept(const toml::node& node, RecordingSetting& setting) {
+    return takeBytes(node, setting.keptBytes);
+  }
+  static bool takeBytes(const toml::node& node, uint64_t& bytes);
   bool takePermissions(const toml::node& node, File& map) {
     const toml::array* list = node.as_array();
     if (list == nullptr) return false;
@@ -308,6 +332,7 @@ const Reader::Key<File> Reader::kFileKeys[] = {
      &Reader::takeAxisGroups},
     {"abort", false, "a list of tables", "[[abort]] and its keys in the lines after it", &Reader::takeAborts},
     {"rungctl", false, "a table", "[rungctl] and permissions = [ … ] in the lines after it", &Reader::takeRemote},
+    {"recording", false, "a table", "[recording] and limit = \"512MB\" in the lines after it", &Reader::takeRecording},
     {"modbus-client", false, "a list of tables", "[[modbus-client]] and its keys in the lines after it",
      &Reader::takeClients},
     {"devices", false, "a table", "[devices] and com = { 1 = \"/dev/ttyUSB0\" } in the lines after it",
@@ -320,6 +345,28 @@ const Reader::Key<File> Reader::kRemoteKeys[] = {
     {"permissions", false, kPermissions, "permissions = [\"set\"]", &Reader::takePermissions},
     {"protected", false, "a list of names of the program", "protected = [\"X0.0\"]", &Reader::takeProtected},
 };
+
+constexpr std::string_view kBytes = "a number of MB or GB as a text, 16MB to 1024GB";
+const Reader::Key<RecordingSetting> Reader::kRecordingKeys[] = {
+    {"off", false, "true or false", "off = true", &Reader::takeRecordingOff},
+    {"folder", false, "the path of a folder", "folder = \"/var/lib/mill/recording\"", &Reader::takeRecordingFolder},
+    {"limit", false, kBytes, "limit = \"512MB\"", &Reader::takeRecordingLimit},
+    {"keep", false, kBytes, "keep = \"256MB\"", &Reader::takeRecordingKept},
+};
+
+bool Reader::takeBytes(const toml::node& node, uint64_t& bytes) {
+  constexpr uint64_t kMega = 1'000'000, kLeast = 16 * kMega, kMost = 1'024'000 * kMega;
+  const std::string text = text::stringOf(node);
+  std::string_view digits = text;
+  const uint64_t unit = digits.ends_with("GB") ? 1000 * kMega : kMega;
+  if (!digits.ends_with("GB") && !digits.ends_with("MB")) return false;
+  digits.remove_suffix(2);
+  uint32_t number = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
+  if (error != std::errc() || end != digits.data() + digits.size()) return false;
+  bytes = number * unit;
+  return bytes >= kLeast && bytes <= kMost;
+}
 
 const Reader::Key<PinRow> Reader::kType = {"type", true, "\"bit\", \"s32\", \"u32\" or \"float\"", "type = \"bit\"",
                                            &Reader::takeType};

@@ -182,6 +182,14 @@ struct DeviceSetting {
   text::Position at; // position of the value
 };
 
+// recording: what the host does to its program is recorded.
+struct RecordingSetting {
+  bool off = false;
+  std::string folder;      // "": beside the retained memory
+  uint64_t limitBytes = 0; // 0: the default
+  uint64_t keptBytes = 0;
+};
+
 // A mapping file with the files that it includes; all entries are in the order of the text.
 struct File {
   std::vector<std::string> paths; // the file and those that it includes; Position::file is an index into them
@@ -197,6 +205,7 @@ struct File {
   std::vector<Protected> protectedCells;
   std::vector<Connection> connections;
   std::vector<DeviceSetting> devices;
+  RecordingSetting recording;
   std::vector<Edge> aborts;                // edges that end every function: reset, emergency stop
   int64_t timeoutNs = 0;                   // timeout of a function; 0: none
   std::optional<text::Position> highSpeed; // position of `high-speed = true`

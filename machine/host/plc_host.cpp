@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <iterator>
 #include <new>
 #include <optional>
 #include <utility>
@@ -42,6 +43,15 @@ int32_t readProfile(const rung_instance* plc, Command& command) noexcept {
 
 } // namespace
 
+namespace {
+
+std::string recordingFolder(const RecordingSetting& setting, const std::string& retain) {
+  if (setting.off) return {};
+  return setting.folder.empty() && !retain.empty() ? retain + ".recording" : setting.folder;
+}
+
+} // namespace
+
 PlcHost::PlcHost(const Image& image, File map, const Options& options)
     : map_(std::move(map)), translation_(translationOf(image.program().dialect)), options_{.size = sizeof options_,
                                                                                            .user = this,
@@ -49,7 +59,8 @@ PlcHost::PlcHost(const Image& image, File map, const Options& options)
                                                                                            .request = &PlcHost::request,
                                                                                            .catch_up = options.catchUp},
       plc_(options.newInstance ? options.newInstance(image, options_) : Instance(image, &options_)),
-      kept_(!options.retain.empty()), reset_(options.reset), pins_(map_.pins), clock_(*options.clock) {
+      kept_(!options.retain.empty()), recordingFolder_(recordingFolder(map_.recording, options.retain)),
+      reset_(options.reset), pins_(map_.pins), clock_(*options.clock) {
   if (kept_) plc_.keep(options.retain);
 }
 
@@ -75,8 +86,10 @@ std::unique_ptr<PlcHost> PlcHost::make(const Image& image, File map, const Optio
   host->bindValues();
   host->functions_ = std::make_unique<FunctionQueue>(host->map_, host->plc_.handle());
   std::string problem;
+  host->record(warnings);
   const int32_t status = host->start(problem);
-  warnings = std::move(host->logged_);
+  std::ranges::move(host->logged_, std::back_inserter(warnings));
+  host->logged_.clear();
   for (const Pin& pin : host->map_.pins)
     if (pin.holds) warnings.push_back("pin " + pin.name + " holds its last value while the program does not run");
   if (status < RUNG_OK) throw Error(status, problem.c_str());
@@ -115,6 +128,17 @@ void PlcHost::bind(const Link& link, Value& value, rung_direction direction, dou
   const rung_variable variable{link.name.c_str(), &value, kTypes[static_cast<size_t>(link.type)], direction | words,
                                scale};
   check(rung_instance_bind(plc_.handle(), &variable, 1));
+}
+
+// A program runs without its recording, too.
+void PlcHost::record(std::vector<std::string>& warnings) {
+  if (recordingFolder_.empty()) return;
+  auto options = sized<rung_recording_options>();
+  options.folder = recordingFolder_.c_str();
+  options.limit_bytes = map_.recording.limitBytes;
+  options.kept_bytes = map_.recording.keptBytes;
+  if (rung_instance_record(plc_.handle(), &options) != RUNG_OK)
+    warnings.push_back("nothing is recorded: " + std::string(rung_error_text()));
 }
 
 // A fault at power-on is noticed in the first step.

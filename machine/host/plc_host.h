@@ -38,7 +38,9 @@ class PlcHost {
 public:
   using NewInstance = std::function<Instance(const Image& image, const rung_instance_options& options)>;
   struct Options {
-    std::string retain;                              // retained memory is in FILE.a and FILE.b; "": cold start
+    // Retained memory is in FILE.a and FILE.b, and a recording in the folder FILE.recording unless the map has another
+    // one; "": cold start.
+    std::string retain = {};
     NewInstance newInstance = {};                    // makes instances; empty: without devices or a simulation
     runtime::Clock* clock = &runtime::systemClock(); // for everything but steps; must outlive the host
     uint32_t catchUp = 0;                            // as in rung_instance_options
@@ -153,6 +155,7 @@ private:
   template <class Link>
   void bind(const Link& link, Value& value, rung_direction direction, double scale);
   void bindValues();
+  void record(std::vector<std::string>& warnings);
   void beginWith(size_t link, bool first) noexcept;
   Value valueInProgram(const PinLink& link) noexcept;
   void setPins(const PinLink& link, const Value& value) noexcept;
@@ -178,7 +181,8 @@ private:
   const Translation& translation_;
   rung_instance_options options_;
   Instance plc_;
-  bool kept_; // retained memory has a file
+  bool kept_;                         // retained memory has a file
+  const std::string recordingFolder_; // "": nothing is recorded
   const char* const reset_;
   Binding binding_;
   std::vector<Value> values_, constants_;       // bound to the program; indexed as the entries of binding_

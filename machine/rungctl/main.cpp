@@ -391,6 +391,27 @@ void reloadOptions(cli::Command& command, Words& words) {
   command.flag("--late", words.late, "Reload even if a slice may take longer than its period");
 }
 
+int mark(Client& client, const Words& words) {
+  const json answer = asked(client, {{"do", "mark"}, {"text", words.value}});
+  print(words, answer, "marked\n");
+  return cli::kOk;
+}
+
+int recording(Client& client, const Words& words) {
+  if (words.all) asked(client, {{"do", "keep"}});
+  const json answer = asked(client, {{"do", "recording"}});
+  constexpr double kMega = 1e6;
+  std::string text = fmt::format("folder {}, since {}, {:.1f} MB\n", shown(answer["folder"]),
+                                 control::dateText(answer.value("since", int64_t{0})),
+                                 static_cast<double>(answer.value("bytes", uint64_t{0})) / kMega);
+  if (const auto losses = answer.value("losses", uint64_t{0}); losses != 0)
+    text += fmt::format("{} {} since the start of the host\n", losses, losses == 1 ? "gap" : "gaps");
+  if (answer.contains("problem")) text += "nothing is recorded now: " + shown(answer["problem"]) + "\n";
+  if (words.all) text += "the files of now are kept\n";
+  print(words, answer, text);
+  return cli::kOk;
+}
+
 constexpr Row kCommands[] = {
     {"status", "Show whether the program runs, its scans and its faults", nullptr, status},
     {"messages", "Show messages of the program with their times, and faults and restarts",
@@ -415,6 +436,11 @@ constexpr Row kCommands[] = {
      },
      trace},
     {"set", "Write a value to a variable once", valueOptions, set},
+    {"mark", "Write a text into the recording of the program, and keep its files of now",
+     [](cli::Command& command, Words& words) { command.option("TEXT", words.value, "The text").required(); }, mark},
+    {"recording", "Show where the program is recorded, since when, and what was lost",
+     [](cli::Command& command, Words& words) { command.flag("--keep", words.all, "Keep the files of now"); },
+     recording},
     {"event", "Trigger an event of the control that rung-run simulates",
      [](cli::Command& command, Words& words) {
        command.option("NAME", words.name, "Name of the event, as in scenarios").required();

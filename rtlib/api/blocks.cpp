@@ -79,6 +79,7 @@ void BlockPlan::append(std::vector<Piece>& pieces, const Piece& byte) {
 }
 
 void BlockPlan::addInput(const HostBlock& block, const BlockPlace& place) {
+  hasInputs_ = true;
   for (uint32_t i = 0; i < block.bytes; ++i) {
     const Piece byte = byteOf(block, place, i);
     bool any = false;

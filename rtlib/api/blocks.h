@@ -52,6 +52,7 @@ public:
   void readRest(uint8_t* memory) const noexcept { copyIn(rest_, memory); }
   void write(const uint8_t* memory) const noexcept;
   void clear() const noexcept;
+  bool hasInputs() const noexcept { return hasInputs_; }
   // Whether a block contains bytes that process-image copies leave out.
   bool seesLeftOut() const noexcept { return seesLeftOut_; }
 
@@ -74,6 +75,7 @@ private:
   const rung_program* program_;
   core::NeededCopies copies_;
   bool seesLeftOut_ = false;
+  bool hasInputs_ = false;
   std::vector<std::vector<Piece>> reads_; // by task
   std::vector<Piece> rest_;
   std::vector<Piece> outputs_;

@@ -38,6 +38,13 @@ nc::Functions* functionsOf(rung_instance& instance, uint32_t channel) noexcept {
   return channel < 32 ? instance.control->functions(channel) : nullptr;
 }
 
+// The control has taken it.
+int32_t configure(rung_instance& instance, const Configured& what) {
+  instance.configured.push_back(what);
+  if (instance.recorder) instance.recorder->changedWhole();
+  return RUNG_OK;
+}
+
 int32_t failChannel(uint32_t channel) noexcept {
   return fail(RUNG_NOT_FOUND, "the control has no functions in a channel %u", channel);
 }
@@ -92,7 +99,7 @@ int32_t rung_instance_define_message(rung_instance* instance, uint32_t number, u
                                               .lasts = (flags & RUNG_MESSAGE_LASTS) != 0,
                                               .loggedOnly = (flags & RUNG_MESSAGE_LOGGED_ONLY) != 0,
                                               .text = text});
-    if (taken) return int32_t{RUNG_OK};
+    if (taken) return configure(*call, {.kind = Configured::Kind::Message, .a = number, .b = flags, .text = text});
     return fail(RUNG_NOT_FOUND, "the dialect has the texts of its messages in the program");
   });
 }
@@ -141,8 +148,12 @@ int32_t rung_instance_begin_function(rung_instance* instance, uint32_t channel, 
   if (function == nullptr) return fail(RUNG_BAD_ARGUMENT, "the pointer that receives the handle of a function is null");
   if (const int32_t status = checkFunction(*call, channel, kind, code); status != RUNG_OK) return status;
   const auto of = static_cast<nc::FunctionKind>(kind);
+  if (call->recorder) call->recorder->functionBegins(channel, kind, code);
   const std::optional<uint32_t> started = functionsOf(*call, channel)->start(of, code);
-  if (!started) return RUNG_LATER;
+  if (!started) {
+    if (call->recorder) call->recorder->functionRefused();
+    return RUNG_LATER;
+  }
   call->functionChannels |= 1u << channel;
   *function = *started;
   return RUNG_OK;
@@ -161,6 +172,7 @@ int32_t rung_instance_abort_functions(rung_instance* instance, uint32_t channel)
   if (!call.ok()) return call.status();
   nc::Functions* functions = functionsOf(*call, channel);
   if (functions == nullptr) return failChannel(channel);
+  if (call->recorder) call->recorder->aborts(channel);
   functions->abort();
   return RUNG_OK;
 }
@@ -176,7 +188,8 @@ int32_t rung_instance_group_function(rung_instance* instance, uint32_t channel, 
   nc::Functions* functions = functionsOf(*call, channel);
   if (functions == nullptr) return failChannel(channel);
   return contained([&] {
-    if (functions->setGroup(code, group)) return int32_t{RUNG_OK};
+    if (functions->setGroup(code, group))
+      return configure(*call, {.kind = Configured::Kind::Group, .a = channel, .b = code, .c = group});
     return fail(RUNG_NOT_FOUND, "M%u cannot be in a group %u that the machine chooses", code, group);
   });
 }
@@ -184,7 +197,8 @@ int32_t rung_instance_group_function(rung_instance* instance, uint32_t channel, 
 int32_t rung_instance_axis_group(rung_instance* instance, uint32_t axis, uint32_t group) {
   const Call call(instance);
   if (!call.ok()) return call.status();
-  if (call->control->setAxisGroup(axis, group)) return RUNG_OK;
+  if (call->control->setAxisGroup(axis, group))
+    return contained([&] { return configure(*call, {.kind = Configured::Kind::AxisGroup, .a = axis, .b = group}); });
   return fail(RUNG_NOT_FOUND, "the dialect has no axis %u, or no group %u, both from 0", axis, group);
 }
 
@@ -193,12 +207,14 @@ int32_t rung_instance_high_speed_functions(rung_instance* instance, uint32_t cha
   if (!call.ok()) return call.status();
   nc::Functions* functions = functionsOf(*call, channel);
   if (functions == nullptr) return failChannel(channel);
-  return functions->useHighSpeed() ? RUNG_OK : fail(RUNG_NOT_FOUND, "the dialect has no high-speed handshake");
+  if (!functions->useHighSpeed()) return fail(RUNG_NOT_FOUND, "the dialect has no high-speed handshake");
+  return contained([&] { return configure(*call, {.kind = Configured::Kind::HighSpeed, .a = channel}); });
 }
 
 int32_t rung_instance_serving(rung_instance* instance, int32_t is_served) {
   const Call call(instance);
   if (!call.ok()) return call.status();
   call->control->setServed(is_served != 0);
+  if (call->recorder) call->recorder->served(is_served != 0);
   return RUNG_OK;
 }

@@ -182,6 +182,7 @@ int32_t rung_forces_free(rung_forces* forces) {
     if (!call.ok()) return call.status();
     call->running.endForces();
     settleForces(*call);
+    if (call->recorder) call->recorder->forcesChanged();
   }
   release(handle);
   instance.generations.release();
@@ -195,6 +196,7 @@ int32_t rung_instance_force(rung_instance* instance, rung_forces* forces) {
   if (forces == nullptr) {
     running.endForces();
     settleForces(*call);
+    if (call->recorder) call->recorder->forcesChanged();
     return RUNG_OK;
   }
   rung_forces* handle = checked(forces, kForcesMark);
@@ -211,6 +213,7 @@ int32_t rung_instance_force(rung_instance* instance, rung_forces* forces) {
     settleForces(*call);
   }
   running.force(handle->forcing);
+  if (call->recorder) call->recorder->forcesChanged();
   handle->inEffect.store(true, std::memory_order_release);
   call->forces = handle;
   return RUNG_OK;

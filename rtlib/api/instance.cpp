@@ -68,6 +68,7 @@ bool Hooks::respond(runtime::Instance& running, const core::ServiceRequest& requ
     if (answer == RUNG_ANSWER) reply = taken(given);
     reply.ticket = request.ticket;
   }
+  if (instance_.recorder) instance_.recorder->decided(answer, reply);
   if (answer == RUNG_ANSWER) return true;
   return answer != RUNG_QUEUE && instance_.environment->respond(running, request, reply);
 }
@@ -124,6 +125,7 @@ int32_t powerOn(rung_instance& instance, nc::PowerOn kind) {
   instance.on = instance.wasOn = true;
   instance.ending = false;
   instance.faultReported = false;
+  if (instance.recorder) instance.recorder->changedWhole();
   if (Generation* faulted = instance.faulted.exchange(nullptr); faulted != nullptr) faulted->forget();
   reportFault(instance);
   return statusOf(instance);
@@ -133,10 +135,12 @@ int32_t powerOn(rung_instance& instance, nc::PowerOn kind) {
 bool needsLastScans(rung_instance& instance) noexcept {
   nc::Control& control = *instance.control;
   if (!instance.ending) {
+    if (instance.recorder) instance.recorder->partBegins(runtime::PartKind::PowerOff, RUNG_NONE, false);
     const bool needs = !instance.running.faulted() && control.beginPowerOff(instance.running);
     instance.ending = true;
     instance.lastScan = instance.scans + (needs ? nc::Control::kMostLastScans : 0);
     takeMessages(instance);
+    if (instance.recorder) instance.recorder->partEnds();
   }
   return instance.scans < instance.lastScan && !instance.running.faulted() && control.endsLater(instance.running);
 }
@@ -145,7 +149,7 @@ int32_t powerOff(rung_instance& instance) {
   // Saved before the last scans, because a fault in them would make the retained memory unusable.
   if (instance.retention && !instance.running.faulted()) (void)instance.retention->finish();
   while (needsLastScans(instance)) {
-    do runPart(instance, [&] { instance.running.slice(); });
+    do runPart(instance, runtime::PartKind::Slice, [&] { instance.running.slice(); });
     while (!instance.running.atListStart() && !instance.running.faulted());
   }
   instance.on = false;
@@ -183,7 +187,7 @@ rung_instance::rung_instance(std::shared_ptr<const Image> from, const rung_insta
   beginLeavingOut();
 }
 
-rung_instance::~rung_instance() = default;
+rung_instance::~rung_instance() { recording.reset(); }
 
 namespace rung::api {
 

@@ -11,6 +11,7 @@
 #include "rtlib/api/environment.h"
 #include "rtlib/api/host_struct.h"
 #include "rtlib/api/image.h"
+#include "rtlib/api/recording.h"
 #include "rtlib/api/watch.h"
 #include "rtlib/core/handover.h"
 #include "rtlib/nc/control/control.h"
@@ -86,6 +87,9 @@ struct rung_instance {
   std::vector<rung::api::BoundVariable> inputs, outputs;
   rung::api::HostStructs structs;
   rung::api::Watches watches;
+  std::vector<rung::api::Configured> configured;           // so far
+  std::unique_ptr<rung::api::HostRecorder> recorder;       // null: what the host does is not recorded
+  std::unique_ptr<rung::api::InstanceRecording> recording; // null: nothing is recorded
   rung::core::FixedRing<rung::api::Said, rung::core::kMessageCapacity> messages;
   rung::runtime::Outside outside;
   std::string retainFile;                         // base path of the retained memory; "": it is not stored

@@ -29,6 +29,10 @@ struct rung_replacement {
     bound = runtime::measureBound({image->program, image->engine});
     boundText = runtime::boundText(bound, image->program);
     next = of.generations.add(*of.environment, image, replacement.copyLists());
+    if (of.recording) {
+      recorded = of.recording->prepare(*next);
+      of.recording->addProgram(*image);
+    }
   }
   ~rung_replacement() {
     rung_replacement* self = this;
@@ -50,6 +54,7 @@ struct rung_replacement {
   std::unique_ptr<nc::Places> places;              // of the control
   std::unique_ptr<nc::Places> environmentPlaces;   // of the environment
   std::unique_ptr<runtime::RetainChannel> channel; // for retained memory
+  InstanceRecording::Next recorded;                // empty: the recording began later
   std::atomic<bool> holdsFormer{false};            // `next` is running
   std::atomic<bool> spent{false};                  // a fault of `next` has put `former` back
   runtime::ScanBound bound;                        // of `next`
@@ -117,6 +122,7 @@ runtime::ReplaceResult exchange(rung_instance& instance, rung_replacement& repla
   instance.beginLeavingOut();
   settleForces(instance);
   if (instance.retention) instance.retention->programChanged(replacement.channel);
+  if (instance.recording) instance.recording->programChanged(replacement.recorded);
   instance.pace.programChanged();
   replacement.holdsFormer = !replacement.holdsFormer;
   instance.former.store(replacement.holdsFormer ? &replacement : nullptr);

@@ -25,10 +25,12 @@ void stepFunctions(rung_instance& instance) noexcept {
 void endSlice(rung_instance& instance) noexcept {
   instance.environment->afterPart(instance.running);
   instance.running.hold();
+  const bool asked = instance.recorder && instance.control->asksToSave(instance.running);
   if (instance.retention && !instance.retention->afterSlice() && (instance.options.flags & RUNG_SAVE_AT_ONCE) != 0) {
     (void)instance.retention->flush();
     (void)instance.retention->afterSlice();
   }
+  if (asked && !instance.control->asksToSave(instance.running)) instance.recorder->saved();
 }
 
 void takeChanges(rung_instance& instance) noexcept {
@@ -53,15 +55,20 @@ void endScan(rung_instance& instance) noexcept {
 } // namespace
 
 // The rest of a slice keeps the inputs with which the slice began.
-void beforePart(rung_instance& instance) noexcept {
-  if (instance.running.withinSlice()) return;
-  instance.structs.takeAll();
-  if (!instance.inputs.empty()) readInputs(instance); // most hosts bind none
-  instance.now().blockPlan.readRest(instance.running.block().data());
-  instance.environment->beforePart(instance.running);
+void beforePart(rung_instance& instance, runtime::PartKind kind, uint32_t number) noexcept {
+  const bool begins = !instance.running.withinSlice();
+  if (begins) {
+    instance.structs.takeAll();
+    if (!instance.inputs.empty()) readInputs(instance); // most hosts bind none
+    instance.now().blockPlan.readRest(instance.running.block().data());
+  }
+  if (instance.recorder) instance.recorder->partBegins(kind, number, begins);
+  if (begins) instance.environment->beforePart(instance.running);
 }
 
-void afterPart(rung_instance& instance) noexcept {
+namespace {
+
+void endPart(rung_instance& instance) noexcept {
   runtime::Instance& running = instance.running;
   takeMessages(instance);
   const bool sliceEnds = !running.withinSlice() || running.faulted();
@@ -70,6 +77,7 @@ void afterPart(rung_instance& instance) noexcept {
     settleForces(instance);
     clearOutputs(instance);
     sampleWatches(instance);
+    if (instance.recorder) instance.recorder->partEnds();
     putFormerBack(instance);
     reportFault(instance);
     return;
@@ -78,6 +86,13 @@ void afterPart(rung_instance& instance) noexcept {
   instance.now().blockPlan.write(running.block().data());
   if (running.atListStart()) endScan(instance);
   if (sliceEnds) stepFunctions(instance);
+}
+
+} // namespace
+
+void afterPart(rung_instance& instance) noexcept {
+  endPart(instance);
+  if (instance.recorder) instance.recorder->partEnds();
 }
 
 void reportFault(rung_instance& instance) noexcept {
@@ -101,10 +116,10 @@ namespace {
 constexpr int64_t kHourNs = 3'600'000'000'000;
 
 template <class Part>
-int32_t runCall(rung_instance* handle, Part part) noexcept {
+int32_t runCall(rung_instance* handle, runtime::PartKind kind, Part part) noexcept {
   const Call call(handle, When::On);
   if (!call.ok()) return call.status();
-  if (!call->running.faulted()) runPart(*call, [&] { part(call->running); });
+  if (!call->running.faulted()) runPart(*call, kind, [&] { part(call->running); });
   return statusOf(*call);
 }
 
@@ -157,28 +172,31 @@ using namespace rung;
 using namespace rung::api;
 
 int32_t rung_instance_slice(rung_instance* instance) {
-  return runCall(instance, [](runtime::Instance& running) { running.slice(); });
+  return runCall(instance, runtime::PartKind::Slice, [](runtime::Instance& running) { running.slice(); });
 }
 int32_t rung_instance_scan(rung_instance* instance) {
-  return runCall(instance, [](runtime::Instance& running) { running.scan(); });
+  return runCall(instance, runtime::PartKind::Scan, [](runtime::Instance& running) { running.scan(); });
 }
 int32_t rung_instance_slot(rung_instance* instance) {
-  return runCall(instance, [](runtime::Instance& running) { running.slot(); });
+  return runCall(instance, runtime::PartKind::Slot, [](runtime::Instance& running) { running.slot(); });
 }
 int32_t rung_instance_fast(rung_instance* instance) {
-  return runCall(instance, [](runtime::Instance& running) { running.fast(); });
+  return runCall(instance, runtime::PartKind::Fast, [](runtime::Instance& running) { running.fast(); });
 }
 
 int32_t rung_instance_run_due(rung_instance* instance, int64_t elapsed_ns) {
   return runElapsed(instance, elapsed_ns, [](rung_instance& due) {
-    while (!due.running.faulted() && due.pace.take()) runPart(due, [&] { due.running.slice(); });
-    if (due.pace.overloaded() && !due.running.faulted()) runPart(due, [&] { due.running.haltOverrun(); });
+    while (!due.running.faulted() && due.pace.take())
+      runPart(due, runtime::PartKind::Slice, [&] { due.running.slice(); });
+    if (due.pace.overloaded() && !due.running.faulted())
+      runPart(due, runtime::PartKind::Halt, [&] { due.running.haltOverrun(); }, core::kOverrunFault);
   });
 }
 
 int32_t rung_instance_run_due_fast(rung_instance* instance, int64_t elapsed_ns) {
   return runElapsed(instance, elapsed_ns, [](rung_instance& due) {
-    if (due.running.fastAhead() && due.pace.take()) runPart(due, [&] { due.running.sliceToFast(); });
+    if (due.running.fastAhead() && due.pace.take())
+      runPart(due, runtime::PartKind::SliceToFast, [&] { due.running.sliceToFast(); });
   });
 }
 
@@ -209,14 +227,17 @@ int32_t rung_instance_stop(rung_instance* instance) {
   const Call call(instance);
   if (!call.ok()) return call.status();
   call->running.setStopped(true);
+  if (call->recorder) call->recorder->stopped(true);
   settleForces(*call);
   return RUNG_OK;
 }
 
 int32_t rung_instance_start(rung_instance* instance) {
   const Call call(instance);
-  if (call.ok()) call->running.setStopped(false);
-  return call.status();
+  if (!call.ok()) return call.status();
+  call->running.setStopped(false);
+  if (call->recorder) call->recorder->stopped(false);
+  return RUNG_OK;
 }
 
 namespace {

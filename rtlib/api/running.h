@@ -6,16 +6,17 @@
 
 namespace rung::api {
 
-void beforePart(rung_instance& instance) noexcept;
+// `kind` and `number` as in runtime::OutsideWatch.
+void beforePart(rung_instance& instance, runtime::PartKind kind, uint32_t number) noexcept;
 void afterPart(rung_instance& instance) noexcept;
 // Sets bound variables and blocks to 0, because the outputs of the program are no longer valid.
 void clearOutputs(rung_instance& instance) noexcept;
 
 // `part` runs a slice, a slot, a scan or the fast task.
 template <class Part>
-void runPart(rung_instance& instance, Part part) noexcept {
+void runPart(rung_instance& instance, runtime::PartKind kind, Part part, uint32_t number = RUNG_NONE) noexcept {
   const bool measures = (instance.options.flags & RUNG_MEASURE) != 0;
-  beforePart(instance);
+  beforePart(instance, kind, number);
   const int64_t begin = measures ? runtime::monotonicNs() : 0;
   part();
   if (measures) instance.passNs += runtime::monotonicNs() - begin;
@@ -31,6 +32,13 @@ void reportFault(rung_instance& instance) noexcept;
 inline int32_t statusOf(const rung_instance& instance) noexcept {
   return instance.running.faulted() ? RUNG_FAULTED : RUNG_OK;
 }
+
+// The state of the instance with that of its control: with or without the requests that the host has not taken, which
+// it may be taking meanwhile only if they are left out. False: within a scan.
+enum class Waiting : uint8_t { Included, LeftOut };
+bool saveState(const rung_instance& instance, core::Saver& saver, Waiting waiting) noexcept;
+// As rung_instance_load.
+int32_t loadState(rung_instance& instance, core::Loader& loader);
 
 // Checks a memory block for a program; null: the library allocates one.
 int32_t checkMemory(const rung_program& program, const void* memory, size_t bytes) noexcept;

@@ -25,16 +25,6 @@ struct OfLibrary {
   }
 };
 
-int32_t save(const rung_instance& instance, core::Saver& saver) noexcept {
-  if (!instance.running.save(saver)) return fail(RUNG_LATER, "a scan has not ended");
-  instance.environment->save(saver);
-  saver(OfLibrary{.scans = instance.scans,
-                  .functionChannels = instance.functionChannels,
-                  .ending = instance.ending,
-                  .lastScan = instance.lastScan});
-  return RUNG_OK;
-}
-
 int32_t failLoad(runtime::LoadResult result) noexcept {
   switch (result) {
   case runtime::LoadResult::OtherProgram:
@@ -47,7 +37,19 @@ int32_t failLoad(runtime::LoadResult result) noexcept {
   return fail(RUNG_REFUSED, "the state is damaged, or was saved by another version of the library");
 }
 
-int32_t load(rung_instance& instance, core::Loader& loader) {
+} // namespace
+
+bool saveState(const rung_instance& instance, core::Saver& saver, Waiting waiting) noexcept {
+  if (!instance.running.save(saver, waiting == Waiting::Included)) return false;
+  instance.environment->save(saver);
+  saver(OfLibrary{.scans = instance.scans,
+                  .functionChannels = instance.functionChannels,
+                  .ending = instance.ending,
+                  .lastScan = instance.lastScan});
+  return true;
+}
+
+int32_t loadState(rung_instance& instance, core::Loader& loader) {
   const runtime::LoadResult result = instance.running.load(loader);
   if (result == runtime::LoadResult::OtherProgram || result == runtime::LoadResult::OtherForces)
     return failLoad(result);
@@ -69,10 +71,9 @@ int32_t load(rung_instance& instance, core::Loader& loader) {
   instance.faultReported = instance.running.faulted();
   instance.pace.restart();
   settleForces(instance);
+  if (instance.recorder) instance.recorder->changedWhole();
   return RUNG_OK;
 }
-
-} // namespace
 
 } // namespace rung::api
 
@@ -85,7 +86,7 @@ int32_t rung_instance_save(const rung_instance* instance, void* bytes, size_t si
   if (used == nullptr || (bytes == nullptr && size != 0))
     return fail(RUNG_BAD_ARGUMENT, "the pointer that receives the state or its size is null");
   core::Saver saver({static_cast<uint8_t*>(bytes), size});
-  if (const int32_t status = save(*call, saver); status != RUNG_OK) return status;
+  if (!saveState(*call, saver, Waiting::Included)) return fail(RUNG_LATER, "a scan has not ended");
   *used = saver.size();
   if (saver.fits() || bytes == nullptr) return RUNG_OK;
   return fail(RUNG_BAD_ARGUMENT, "the state has %zu bytes, there is room for %zu", saver.size(), size);
@@ -96,7 +97,7 @@ int32_t rung_instance_load(rung_instance* instance, const void* bytes, size_t si
   if (!call.ok()) return call.status();
   if (bytes == nullptr) return fail(RUNG_BAD_ARGUMENT, "the state is null");
   core::Loader loader({static_cast<const uint8_t*>(bytes), size});
-  return contained([&] { return load(*call, loader); });
+  return contained([&] { return loadState(*call, loader); });
 }
 
 int32_t rung_instance_set_clock(rung_instance* instance, int64_t now_us) {

@@ -379,6 +379,8 @@ int32_t rung_instance_write(rung_instance* instance, rung_cell cell, uint32_t fi
   const core::Memory memory = call->running.memory();
   for (uint32_t i = 0; i < count; ++i) writeAt(memory, elementPlace(memory, *found, first + i), values[i]);
   call->running.hold();
+  for (uint32_t i = 0; call->recorder && i < count; ++i)
+    call->recorder->written(elementPlace(memory, *found, first + i));
   return RUNG_OK;
 }
 
@@ -410,6 +412,7 @@ int32_t rung_instance_write_all(rung_instance* instance, const rung_cell* cells,
   const core::Memory memory = call->running.memory();
   for (uint32_t i = 0; i < count; ++i) writeAt(memory, call->now().cells.at(cells[i])->place, values[i]);
   call->running.hold();
+  for (uint32_t i = 0; call->recorder && i < count; ++i) call->recorder->written(call->now().cells.at(cells[i])->place);
   return RUNG_OK;
 }
 
@@ -447,6 +450,7 @@ int32_t rung_instance_write_text(rung_instance* instance, rung_cell cell, const 
   return contained([&] {
     runtime::writeText(call->running.memory(), found->ref, call->control->memoryText(text, found->ref.count));
     call->running.hold();
+    if (call->recorder) call->recorder->writtenText(found->ref);
     return int32_t{RUNG_OK};
   });
 }
@@ -472,6 +476,7 @@ int32_t rung_instance_bind(rung_instance* instance, const rung_variable* variabl
     }
     call->inputs = std::move(inputs);
     call->outputs = std::move(outputs);
+    if (call->recorder) call->recorder->inputsChanged();
     return int32_t{RUNG_OK};
   });
 }

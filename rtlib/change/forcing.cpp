@@ -11,6 +11,16 @@ namespace rung::runtime {
 Forcing::Forcing(const rung_program& program, void* engine, std::span<const ForcedCell> cells)
     : program_(program), code_{program.chunk_fns, engine} {
   for (const ForcedCell& cell : cells) add(cell);
+  finish();
+}
+
+Forcing::Forcing(const rung_program& program, void* engine, std::span<const core::ForcedBits> bits)
+    : program_(program), code_{program.chunk_fns, engine} {
+  for (const core::ForcedBits& each : bits) bits_[each.offset] = {.mask = each.mask, .value = each.value};
+  finish();
+}
+
+void Forcing::finish() {
   for (const auto& [offset, bits] : bits_) {
     held_.push_back({.offset = offset, .mask = bits.mask, .value = bits.value});
     needsCode_ = needsCode_ || isWritten(offset, bits.mask);

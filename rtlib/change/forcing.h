@@ -30,6 +30,9 @@ public:
   // `program` runs with its own code, whose chunks find `engine` in their context. It outlives this object.
   Forcing(const rung_program& program, void* engine, std::span<const ForcedCell> cells);
 
+  // The same for bits of the block that another such object has held (`held`).
+  Forcing(const rung_program& program, void* engine, std::span<const core::ForcedBits> bits);
+
   // Why the cells cannot be forced together; "" if they can.
   const std::string& problem() const { return problem_; }
   // The forced bytes, sorted by space and byte.
@@ -47,6 +50,7 @@ private:
     uint8_t mask = 0;
     uint8_t value = 0;
   };
+  void finish();
   void add(const ForcedCell& cell);
   void addByte(std::string_view name, uint32_t space, uint32_t byte, uint8_t mask, uint8_t value);
   void hold(std::string_view name, uint32_t offset, Bits bit);

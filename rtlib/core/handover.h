@@ -3,6 +3,7 @@
 //
 //   Ring, FixedRing  every element, in order                              one writer, one reader
 //   SlotRing         the same, for records that are used in place        one writer, one reader
+//   ByteRing         the same, for records of any length                 one writer, one reader
 //   Newest           the newest value, whole, and whether it is new       one writer, one reader
 //   Published        the newest value, whole                              one writer, any readers
 //   PublishedText    the same of a text                                   one writer, any readers
@@ -152,6 +153,73 @@ public:
 private:
   size_t slots_;
   std::atomic<uint64_t> pushed_{0}, popped_{0};
+};
+
+// Records of bytes, each in one piece: one that does not fit before the end of the storage is at its beginning. One
+// that does not fit at all is refused and counted.
+class ByteRing {
+public:
+  // `bytes`: a power of two, at least 64.
+  explicit ByteRing(size_t bytes) : storage_(bytes) { assert(bytes >= 64 && (bytes & (bytes - 1)) == 0); }
+
+  // Producer: room for a record of `size` bytes; empty if there is none. `commit` makes the record readable, with as
+  // many bytes as are used.
+  std::span<uint8_t> reserve(size_t size) noexcept {
+    const size_t needed = rounded(size);
+    const uint64_t tail = tail_.load(std::memory_order_relaxed);
+    const size_t at = tail & (storage_.size() - 1);
+    const size_t skipped = needed <= storage_.size() - at ? 0 : storage_.size() - at;
+    if (skipped + needed > storage_.size() - (tail - head_.load(std::memory_order_acquire))) {
+      lost_.store(lost_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+      return {};
+    }
+    if (skipped != 0) setLength(at, kSkips);
+    begin_ = tail + skipped;
+    return {storage_.data() + (begin_ & (storage_.size() - 1)) + kHead, size};
+  }
+  void commit(size_t used) noexcept {
+    setLength(begin_ & (storage_.size() - 1), static_cast<uint32_t>(used));
+    tail_.store(begin_ + rounded(used), std::memory_order_release);
+  }
+  bool push(std::span<const uint8_t> record) noexcept {
+    const std::span<uint8_t> room = reserve(record.size());
+    if (room.empty()) return false;
+    std::memcpy(room.data(), record.data(), record.size());
+    commit(record.size());
+    return true;
+  }
+  uint64_t lost() const noexcept { return lost_.load(std::memory_order_relaxed); } // any thread
+
+  // Consumer: the oldest record, until `pop`; empty if there is none.
+  std::span<const uint8_t> front() noexcept {
+    uint64_t head = head_.load(std::memory_order_relaxed);
+    if (head == tail_.load(std::memory_order_acquire)) return {};
+    size_t at = head & (storage_.size() - 1);
+    if (lengthAt(at) == kSkips) head_.store(head += storage_.size() - at, std::memory_order_release), at = 0;
+    return {storage_.data() + at + kHead, lengthAt(at)};
+  }
+  void pop() noexcept {
+    const uint64_t head = head_.load(std::memory_order_relaxed);
+    head_.store(head + rounded(lengthAt(head & (storage_.size() - 1))), std::memory_order_release);
+  }
+
+private:
+  static constexpr size_t kHead = sizeof(uint32_t); // the length of a record, before it
+  static constexpr uint32_t kSkips = UINT32_MAX;    // the next record is at the beginning of the storage
+  // Records begin at multiples of the head, so that one fits wherever the storage does not end.
+  static size_t rounded(size_t size) noexcept { return kHead + (size + kHead - 1) / kHead * kHead; }
+  void setLength(size_t at, uint32_t length) noexcept { std::memcpy(storage_.data() + at, &length, sizeof length); }
+  uint32_t lengthAt(size_t at) const noexcept {
+    uint32_t length = 0;
+    std::memcpy(&length, storage_.data() + at, sizeof length);
+    return length;
+  }
+
+  std::vector<uint8_t> storage_;
+  uint64_t begin_ = 0; // of the reserved record; producer
+  alignas(64) std::atomic<uint64_t> head_{0};
+  alignas(64) std::atomic<uint64_t> tail_{0};
+  std::atomic<uint64_t> lost_{0};
 };
 
 // ---- the newest value --------------------------------------------------------------------------------------------

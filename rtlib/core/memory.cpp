@@ -55,7 +55,8 @@ void Memory::writeByte(uint32_t space, uint32_t byte, uint8_t value) const noexc
 // For the last bytes of the block, the window ends at the end of the block.
 Place Memory::inWindow(uint32_t offset, uint32_t bit, uint32_t width) const noexcept {
   Place place;
-  place.window = std::min(offset, std::max(program_->memory_size, kLeastBlock) - kLeastBlock);
+  constexpr uint32_t kWindow = sizeof(uint64_t);
+  place.window = std::min(offset, std::max(program_->memory_size, kLeastBlock) - kWindow);
   place.shift = static_cast<uint8_t>(8 * (offset - place.window) + bit);
   place.unused = static_cast<uint8_t>(64 - width);
   place.above = static_cast<uint8_t>(place.unused - place.shift);

@@ -38,7 +38,7 @@ struct Place {
 
 class Memory {
 public:
-  static constexpr uint32_t kLeastBlock = 8; // minimum size of a block in bytes, whatever the program needs
+  static constexpr uint32_t kLeastBlock = 16; // minimum size of a block in bytes, whatever the program needs
   Memory(const rung_program& program, uint8_t* block) noexcept : program_(&program), block_(block) {}
 
   const rung_program& program() const noexcept { return *program_; }

@@ -98,6 +98,7 @@ void ServiceQueue::deliverAll() noexcept {
     }
     fill(record, reply);
     --pending_;
+    if (delivered_ != nullptr) delivered_(observer_, reply);
   }
 }
 
@@ -134,7 +135,7 @@ bool isPossible(const Loader& loader, uint32_t count, uint32_t most) noexcept { 
 
 } // namespace
 
-void ServiceQueue::save(Saver& saver) const noexcept {
+void ServiceQueue::save(Saver& saver, bool waiting) const noexcept {
   const auto used = static_cast<uint32_t>(
       std::ranges::count_if(records_, [](uint32_t ticket) { return ticket != 0; }, &ServiceRecord::ticket));
   saver(lastTicket_, used);
@@ -143,12 +144,12 @@ void ServiceQueue::save(Saver& saver) const noexcept {
     saver(record.ticket, record.state, record.resultCount);
     archiveValues(saver, record.results, record.resultCount);
   }
-  const uint32_t asked = lengthOf(requests_);
+  const uint32_t asked = waiting ? lengthOf(requests_) : 0;
   saver(asked);
   for (uint32_t i = 0; i < asked; ++i) {
     saver(*requests_.peek(i));
   }
-  const uint32_t answered = lengthOf(replies_);
+  const uint32_t answered = waiting ? lengthOf(replies_) : 0;
   saver(answered);
   for (uint32_t i = 0; i < answered; ++i) {
     ServiceReply reply = *replies_.peek(i);

@@ -115,10 +115,17 @@ public:
   // replies to requests taken before count as stray.
   void restart() noexcept;
 
-  // The tickets, the requests that wait and the replies that have not been delivered. Scan thread,
-  // between scans. What a loaded queue asks its host for is what it had asked for when it was saved; while it is
-  // loaded, the host's side must not be active. A state that is impossible leaves the queue as after a restart.
-  void save(Saver& saver) const noexcept;
+  // Scan thread: `delivered` is called for each reply that has become visible; null: nothing is.
+  void setObserver(void (*delivered)(void* observer, const ServiceReply& reply), void* observer) noexcept {
+    delivered_ = delivered;
+    observer_ = observer;
+  }
+
+  // The tickets and, if `waiting`, the requests that wait and the replies that have not been delivered, which only then
+  // must not be taken or given meanwhile. Scan thread, between scans. What a loaded queue asks its host for is what it
+  // had asked for when it was saved; while it is loaded, the host's side must not be active. A state that is impossible
+  // leaves the queue as after a restart.
+  void save(Saver& saver, bool waiting) const noexcept;
   void load(Loader& loader) noexcept;
 
 private:
@@ -130,6 +137,8 @@ private:
   void loadReplies(Loader& loader) noexcept;
 
   ServiceRecord records_[kRecords];
+  void (*delivered_)(void*, const ServiceReply&) = nullptr;
+  void* observer_ = nullptr;
   uint32_t lastTicket_ = 0;
   uint32_t pending_ = 0;
   std::atomic<uint32_t> refused_{0};

@@ -299,7 +299,7 @@ private:
     for (uint32_t i = 0; i < p_.read_count; ++i) inBlock("read span", i, p_.reads[i].offset, p_.reads[i].size);
     const uint32_t block = std::max(p_.memory_size, core::Memory::kLeastBlock);
     for (uint32_t i = 0; i < p_.change_count; ++i)
-      if (p_.changes[i] > block - core::Memory::kLeastBlock) failAt("change", i, "lies outside the memory block");
+      if (p_.changes[i] > block - sizeof(uint64_t)) failAt("change", i, "lies outside the memory block");
     for (uint32_t i = 0; i < p_.write_count; ++i) {
       inBlock("written span", i, p_.writes[i].offset, p_.writes[i].size);
       if (i > 0 && p_.writes[i].offset < uint64_t{p_.writes[i - 1].offset} + p_.writes[i - 1].size)

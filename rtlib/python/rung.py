@@ -37,7 +37,7 @@ import _rung_abi as _abi
 
 __all__ = ["Access", "Answer", "Cell", "CellInfo", "Change", "ChangeKind", "Difference", "Direction", "Error", "Fault",
            "Force", "Forces", "FunctionKind", "Image", "Instance", "LogLevel", "Message", "MessageOp", "Power",
-           "Profile", "Program", "Replacement", "Report", "Request", "RungChange", "RungChangeKind", "Sample", "Shadow",
+           "Profile", "Program", "Recording", "Replacement", "Report", "Request", "RungChange", "RungChangeKind", "Sample", "Shadow",
            "ShadowReport", "ShadowState", "State", "StateFlags", "Status", "Symbol", "SymbolFlags", "Trace", "Type",
            "Watch", "version", "COLD", "WARM", "READ", "WRITE", "REAL", "TO_PROGRAM", "FROM_PROGRAM", "BOUND_REAL", "M",
            "S", "T", "B", "H", "KEY", "QUEUE"]
@@ -156,6 +156,7 @@ Message = _record("Message", _abi.rung_message_info, "Of Instance.messages and .
                   op=_member_of(MessageOp))
 Profile = _record("Profile", _abi.rung_profile, "Of Instance.profile: a rung, how often and how long it ran. rung 0: the "
                   "compiler's.")
+Recording = _record("Recording", _abi.rung_recording_info, "Of Instance.recording. file empty: none is written now.")
 Sample = _record("Sample", _abi.rung_sample, "Of a Watch: when its values were so.")
 Report = _record("Report", _abi.rung_replacement_info, "Of Replacement.report.")
 ShadowReport = _record("ShadowReport", _abi.rung_shadow_info, "Of Shadow.report.", state=_member_of(ShadowState))
@@ -843,6 +844,39 @@ class Instance(_Closing):
         text = ctypes.create_string_buffer(512)
         status = _call(_library.rung_instance_unsaved, self, text, len(text))
         return None if status == Status.EMPTY else _decoded(text.value)
+
+    # -- recording --
+
+    def record(self, folder, limit_bytes=0, kept_bytes=0, state_ms=0):
+        """Records what happens to the program in files of a folder, from which any moment can be computed again; None:
+        ends it. Sizes of 0 are the usual ones. Errors: FAILED, the folder cannot be used; WRONG_STATE, it is recorded
+        already, or blocks are bound that the program reads."""
+        if folder is None:
+            _call(_library.rung_instance_record, self, None)
+            return
+        options = _abi.rung_recording_options(folder=os.fsencode(folder), limit_bytes=limit_bytes, kept_bytes=kept_bytes,
+                                              state_ms=state_ms)
+        _call(_library.rung_instance_record, self, byref(options))
+
+    def mark(self, text):
+        """Writes a text into the recording, and keeps its files of now. Error: WRONG_STATE, nothing is recorded."""
+        _call(_library.rung_instance_mark, self, text)
+
+    def keep_recording(self):
+        """Keeps the files of the recording of now. Error: WRONG_STATE, nothing is recorded."""
+        _call(_library.rung_instance_keep_recording, self)
+
+    def follow_recording(self):
+        """For two seconds what is recorded is in its file after 33 ms. Error: WRONG_STATE, nothing is recorded."""
+        _call(_library.rung_instance_follow_recording, self)
+
+    def recording(self):
+        """Where the program is recorded, as a Recording; None: it is not."""
+        info = _abi.rung_recording_info()
+        if _library.rung_instance_recording(self, byref(info)) == Status.WRONG_STATE:
+            return None
+        _call(_library.rung_instance_recording, self, byref(info))
+        return info.shown()
 
     # -- profile --
 

@@ -22,37 +22,54 @@ Instance::Instance(const Runnable& runnable, ScheduleHooks* hooks)
 
 // ---- writing -----------------------------------------------------------------------------------------------------
 
-std::optional<Ref> Instance::write(const Ref& ref, uint64_t value) {
+template <class Write>
+std::optional<Ref> Instance::writeAt(const Ref& ref, Write write) {
   const std::optional<Ref> copied = loaded_.overwritten.source(ref);
-  if (!copied) writeRaw(memory(), ref, value);
+  if (!copied) write(memory());
   hold();
+  if (!copied && outside_ != nullptr) noteWritten(ref);
   return copied;
+}
+
+std::optional<Ref> Instance::write(const Ref& ref, uint64_t value) {
+  return writeAt(ref, [&](const core::Memory& memory) { writeRaw(memory, ref, value); });
 }
 
 std::optional<Ref> Instance::writeReal(const Ref& ref, double value) {
-  const std::optional<Ref> copied = loaded_.overwritten.source(ref);
-  if (!copied) runtime::writeReal(memory(), ref, value);
-  hold();
-  return copied;
+  return writeAt(ref, [&](const core::Memory& memory) { runtime::writeReal(memory, ref, value); });
 }
 
 std::optional<Ref> Instance::writeText(const Ref& ref, std::string_view text) {
-  const std::optional<Ref> copied = loaded_.overwritten.source(ref);
-  if (!copied) runtime::writeText(memory(), ref, text);
-  hold();
-  return copied;
+  return writeAt(ref, [&](const core::Memory& memory) { runtime::writeText(memory, ref, text); });
+}
+
+void Instance::noteWritten(const Ref& ref) noexcept {
+  constexpr uint32_t kExpanded = 8; // bytes of the block for a byte whose bits have a byte each
+  const uint32_t bytes = (ref.bit + ref.width * ref.count + 7) / 8;
+  for (uint32_t i = 0; i < bytes; ++i) {
+    const core::Place place = memory().locateBit(ref.space, ref.byte + i, 0);
+    const rung_range* range = memory().rangeOf(ref.space, ref.byte + i);
+    if (range != nullptr)
+      outside_->written(*this, place.offset(), range->repr == RUNG_REPR_BYTE_PER_BIT ? kExpanded : 1);
+  }
 }
 
 // ---- hooks -------------------------------------------------------------------------------------------------------
 
 void Instance::stepHook(void* self, uint32_t work) {
   auto& instance = *static_cast<Instance*>(self);
-  if (instance.hooks_ != nullptr) instance.hooks_->onHook(instance, work);
+  if (instance.hooks_ == nullptr) return;
+  if (instance.outside_ != nullptr) instance.outside_->withinBegins(instance);
+  instance.hooks_->onHook(instance, work);
+  if (instance.outside_ != nullptr) instance.outside_->withinEnded(instance);
 }
 
 void Instance::faultHook(void* self) {
   auto& instance = *static_cast<Instance*>(self);
-  if (instance.hooks_ != nullptr) instance.hooks_->onFault(instance);
+  if (instance.hooks_ == nullptr) return;
+  if (instance.outside_ != nullptr) instance.outside_->withinBegins(instance);
+  instance.hooks_->onFault(instance);
+  if (instance.outside_ != nullptr) instance.outside_->withinEnded(instance);
 }
 
 void Instance::taskHook(void* self, uint32_t task, bool begins) {
@@ -65,7 +82,9 @@ void Instance::taskHook(void* self, uint32_t task, bool begins) {
 
 void Instance::latchHook(void* self, uint32_t task) {
   auto& instance = *static_cast<Instance*>(self);
+  if (instance.outside_ != nullptr) instance.outside_->withinBegins(instance);
   instance.hooks_->onLatch(instance, task);
+  if (instance.outside_ != nullptr) instance.outside_->withinEnded(instance);
 }
 
 void Instance::setRunnerHooks() {
@@ -73,8 +92,22 @@ void Instance::setRunnerHooks() {
                     .fault = &faultHook,
                     .data = this,
                     .task = taskWatch_ == nullptr ? nullptr : &taskHook,
-                    .latch = latching_ && hooks_ != nullptr ? &latchHook : nullptr,
-                    .works = hooks_ != nullptr ? hooks_->works() : 0});
+                    .latch = surroundings().latches ? &latchHook : nullptr,
+                    .works = surroundings().works});
+  surroundingsChanged();
+}
+
+void Instance::setOutsideWatch(OutsideWatch* watch) noexcept {
+  outside_ = watch;
+  const auto replied = [](void* self, const core::ServiceReply& reply) {
+    const auto& instance = *static_cast<Instance*>(self);
+    instance.outside_->replied(instance, reply);
+  };
+  port_->services.setObserver(watch == nullptr ? nullptr : +replied, this);
+}
+
+void Instance::surroundingsChanged() noexcept {
+  if (outside_ != nullptr) outside_->surroundingsChanged(*this);
 }
 
 void Instance::setTaskWatch(TaskWatch* watch) {
@@ -100,6 +133,7 @@ void Instance::useCopies() noexcept {
   const bool only = neededCopiesOnly_ && taskWatch_ == nullptr;
   if (!only) bringInLeftOut();
   runner_.setCopies(only ? &loaded_.neededCopies : nullptr);
+  surroundingsChanged();
 }
 
 void Instance::bringInLeftOut() noexcept {
@@ -112,7 +146,9 @@ void Instance::bringInLeftOut() noexcept {
 
 bool Instance::respondHook(void* self, const core::ServiceRequest& request, core::ServiceReply& reply) {
   auto& instance = *static_cast<Instance*>(self);
-  return instance.hooks_ != nullptr && instance.hooks_->respond(instance, request, reply);
+  const bool responded = instance.hooks_ != nullptr && instance.hooks_->respond(instance, request, reply);
+  if (instance.outside_ != nullptr) instance.outside_->requested(instance, request, responded ? &reply : nullptr);
+  return responded;
 }
 
 // ---- start -------------------------------------------------------------------------------------------------------
@@ -126,6 +162,7 @@ void Instance::resetRun() {
 void Instance::coldStart() {
   loaded_.clear();
   resetRun();
+  if (outside_ != nullptr) outside_->changedWhole(*this);
 }
 
 void Instance::warmStart() {
@@ -133,6 +170,7 @@ void Instance::warmStart() {
   loaded_.clear();
   resetRun();
   restoreRetained(loaded_.retained);
+  if (outside_ != nullptr) outside_->changedWhole(*this);
 }
 
 void Instance::copyRetained(std::span<uint8_t> to) const {
@@ -200,6 +238,7 @@ ReplaceResult Instance::replace(Replacement& replacement, OwnContents own) {
   clearProfile();
   ++generation_;
   if (hooks_ != nullptr) hooks_->onReplace(*this);
+  if (outside_ != nullptr) outside_->changedWhole(*this);
   return ReplaceResult::Replaced;
 }
 
@@ -238,7 +277,7 @@ struct StateRun {
 
 } // namespace
 
-bool Instance::save(core::Saver& saver) const noexcept {
+bool Instance::save(core::Saver& saver, bool waiting) const noexcept {
   if (!atListStart()) return false;
   const rung_program& of = program();
   const std::span<const core::ForcedBits> forced = runner_.forced();
@@ -250,7 +289,7 @@ bool Instance::save(core::Saver& saver) const noexcept {
   saver(StateRun{.nowUs = ctx_->now_us, .faulted = faulted(), .stopped = stopped(), .fault = ctx_->fault});
   saver.bytes(block());
   for (const core::PartState& part : loaded_.parts) saver(part.pc, part.part, part.budget);
-  port_->services.save(saver);
+  port_->services.save(saver, waiting);
   return true;
 }
 
@@ -300,39 +339,73 @@ void Instance::loadState(core::Loader& loader) noexcept {
   runner_.resume(run.faulted, run.stopped);
 }
 
+std::span<const uint8_t> Instance::blockIn(std::span<const uint8_t> state, const rung_program& program) noexcept {
+  core::Loader loader(state);
+  StateHead head;
+  loader(head);
+  for (uint32_t i = 0; i < head.forced && loader.good(); ++i) {
+    core::ForcedBits bits;
+    loader(bits.offset, bits.mask, bits.value);
+  }
+  StateRun run;
+  loader(run);
+  if (!loader.good() || !head.isOf(program) || loader.left() < program.memory_size) return {};
+  return state.subspan(state.size() - loader.left(), program.memory_size);
+}
+
 LoadResult Instance::load(core::Loader& loader) noexcept {
   if (const LoadResult checked = checkState(loader); checked != LoadResult::Loaded) return checked;
   loadState(loader);
-  if (loader.good()) return LoadResult::Loaded;
-  coldStart();
-  return LoadResult::Damaged;
+  if (!loader.good()) {
+    coldStart();
+    return LoadResult::Damaged;
+  }
+  if (outside_ != nullptr) outside_->changedWhole(*this);
+  return LoadResult::Loaded;
 }
 
 // ---- run ---------------------------------------------------------------------------------------------------------
 
+template <class Run>
+inline void Instance::runPart(PartKind kind, uint32_t number, Run run) {
+  if (outside_ != nullptr) outside_->begins(*this, kind, number);
+  run();
+  if (outside_ != nullptr) outside_->ended(*this);
+}
+
 void Instance::scan() {
-  port_->services.deliver();
-  runner_.scan();
+  runPart(PartKind::Scan, RUNG_NONE, [this] {
+    port_->services.deliver();
+    runner_.scan();
+  });
 }
 
 void Instance::slot() {
-  port_->services.deliver();
-  runner_.slot();
+  runPart(PartKind::Slot, RUNG_NONE, [this] {
+    port_->services.deliver();
+    runner_.slot();
+  });
 }
 
 void Instance::fast() {
-  port_->services.deliver();
-  runner_.fast();
+  runPart(PartKind::Fast, RUNG_NONE, [this] {
+    port_->services.deliver();
+    runner_.fast();
+  });
 }
 
 void Instance::slice() {
-  port_->services.deliver();
-  runner_.slice();
+  runPart(PartKind::Slice, RUNG_NONE, [this] {
+    port_->services.deliver();
+    runner_.slice();
+  });
 }
 
 void Instance::sliceToFast() {
-  port_->services.deliver();
-  runner_.sliceToFast();
+  runPart(PartKind::SliceToFast, RUNG_NONE, [this] {
+    port_->services.deliver();
+    runner_.sliceToFast();
+  });
 }
 
 void Instance::runFor(int64_t us) {
@@ -344,16 +417,27 @@ void Instance::runFor(int64_t us) {
   }
 }
 
-bool Instance::runTask(uint32_t task) { return runner_.runTask(task); }
+bool Instance::runTask(uint32_t task) {
+  bool ran = false;
+  runPart(PartKind::Task, task, [&] { ran = runner_.runTask(task); });
+  return ran;
+}
 
-bool Instance::runTask(std::string_view name) { return runner_.runTask(findTask(program(), name)); }
+bool Instance::runTask(std::string_view name) { return runTask(findTask(program(), name)); }
+
+bool Instance::halt(uint32_t fault) {
+  if (fault >= program().fault_count && fault != core::kOverrunFault) return false;
+  bool halted = false;
+  runPart(PartKind::Halt, fault, [&] { halted = runner_.halt(fault); });
+  return halted;
+}
 
 bool Instance::halt(std::string_view fault) {
   for (uint32_t i = 0; i < program().fault_count; ++i)
-    if (fault == program().faults[i]) return runner_.halt(i);
+    if (fault == program().faults[i]) return halt(i);
   return false;
 }
 
-bool Instance::haltOverrun() { return runner_.halt(core::kOverrunFault); }
+bool Instance::haltOverrun() { return halt(core::kOverrunFault); }
 
 } // namespace rung::runtime

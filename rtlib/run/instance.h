@@ -58,6 +58,50 @@ public:
   virtual void ended(const Instance& instance, uint32_t task) = 0;
 };
 
+// What an instance does at a call of its owner, or within a hook.
+enum class PartKind : uint8_t {
+  Scan,
+  Slot,
+  Slice,
+  Fast,
+  SliceToFast,
+  Task,     // one run of a task
+  Halt,     // it stops with a fault
+  PowerOff, // its regular power-off begins
+};
+
+// An observer of everything that comes to a program from outside, in its order. It must not change the instance, and
+// is called where nothing may allocate, lock or wait.
+class OutsideWatch {
+public:
+  virtual ~OutsideWatch() = default;
+  // Before and after a part. `number`: of the task or the fault, else RUNG_NONE.
+  virtual void begins(const Instance& instance, PartKind kind, uint32_t number) noexcept = 0;
+  virtual void ended(const Instance& instance) noexcept = 0;
+  // Before and after a hook of the schedule or of a fault, and the copying of a run's inputs.
+  virtual void withinBegins(const Instance& instance) noexcept = 0;
+  virtual void withinEnded(const Instance& instance) noexcept = 0;
+  // A request, before it is queued; `reply`, if it is not null, answers it at once or says that it is kept.
+  virtual void requested(const Instance& instance, const core::ServiceRequest& request,
+                         const core::ServiceReply* reply) noexcept = 0;
+  // The part, or a hook in it, finds this reply.
+  virtual void replied(const Instance& instance, const core::ServiceReply& reply) noexcept = 0;
+  // The owner has written there, between two parts.
+  virtual void written(const Instance& instance, uint32_t offset, uint32_t bytes) noexcept = 0;
+  // The result of Instance::surroundings is another one.
+  virtual void surroundingsChanged(const Instance& instance) noexcept = 0;
+  // Memory, tickets or program are others than before: a start, a loaded state, a replacement.
+  virtual void changedWhole(const Instance& instance) noexcept = 0;
+};
+
+// What of its owner's settings matters to a part.
+struct Surroundings {
+  uint32_t works = 0;      // ScheduleHooks::works
+  bool latches = false;    // Instance::setLatching
+  bool neededOnly = false; // Instance::setNeededCopiesOnly is in force
+  bool operator==(const Surroundings&) const = default;
+};
+
 enum class LoadResult : uint8_t {
   Loaded,
   OtherProgram, // the state is that of another program, or of another version of it
@@ -84,8 +128,14 @@ public:
   }
   // Asks ScheduleHooks::works again, because its result has changed. Not while the program runs.
   void worksChanged() { setRunnerHooks(); }
-  void setTaskWatch(TaskWatch* watch); // null: none, which costs nothing
-  void setLatching(bool latching);     // whether onLatch is called; not at first
+  void setTaskWatch(TaskWatch* watch);                // null: none, which costs nothing
+  void setOutsideWatch(OutsideWatch* watch) noexcept; // null: none
+  Surroundings surroundings() const {
+    return {.works = hooks_ != nullptr ? hooks_->works() : 0,
+            .latches = latching_ && hooks_ != nullptr,
+            .neededOnly = runner_.copies() != nullptr};
+  }
+  void setLatching(bool latching); // whether onLatch is called; not at first
 
   // Whether process-image copies (task entry and exit) leave out bytes that no rung touches, for hosts that do not look
   // at those bytes; initially no. When this is switched off, the bytes left out are copied once. While a task watch is
@@ -109,12 +159,15 @@ public:
   ReplaceResult replace(Replacement& replacement, OwnContents own = OwnContents::Initial);
   // The state between two scans, with everything on which further scans depend except the control, its host and the
   // code of forces: memory with the compiler's slots, clock, fault, runs that are cut into parts, tickets, requests and
-  // replies. The same program has the same states on every engine and machine. `save` is for the scan
-  // thread and allocates nothing; false: within a scan.
-  bool save(core::Saver& saver) const noexcept;
+  // replies. The same program has the same states on every engine and machine. `save` is for the scan thread and
+  // allocates nothing; false: within a scan. `waiting`: with requests that the host has not taken and replies that the
+  // program has not found, which may change meanwhile only if they are left out.
+  bool save(core::Saver& saver, bool waiting = true) const noexcept;
   // Counts of lost messages and refused requests begin at 0 then. Nothing else may be using the host's side of the
   // queues, whose messages are dropped.
   LoadResult load(core::Loader& loader) noexcept;
+  // The memory block in a saved state of the program; empty if it is none.
+  static std::span<const uint8_t> blockIn(std::span<const uint8_t> state, const rung_program& program) noexcept;
 
   // The number of programs that have taken over. Places that were looked up under another number must be looked up
   // again.
@@ -130,9 +183,10 @@ public:
   // One run of a task by itself, outside the schedule. False: fault, unknown task, or called from within a task.
   bool runTask(uint32_t task);
   bool runTask(std::string_view name);
-  // Stops the program with one of the faults that it declares. False: it does not declare this fault, or is stopped
-  // already.
+  // Stops the program with one of the faults that it declares, by its name or its number. False: it does not declare
+  // this fault, or is stopped already.
   bool halt(std::string_view fault);
+  bool halt(uint32_t fault);
   // Stops the program because the computer is too slow for it. False: it is stopped already.
   bool haltOverrun();
   // For a host on a real clock; see core::Runner.
@@ -194,7 +248,13 @@ public:
   const rung_ctx& context() const { return *ctx_; }
 
 private:
+  template <class Write>
+  std::optional<Ref> writeAt(const Ref& ref, Write write);
+  void noteWritten(const Ref& ref) noexcept;
   void setRunnerHooks();
+  template <class Run>
+  void runPart(PartKind kind, uint32_t number, Run run);
+  void surroundingsChanged() noexcept;
   void useCopies() noexcept;
   void bringInLeftOut() noexcept;
   bool servicesAgree(const rung_program& next) const;
@@ -214,6 +274,7 @@ private:
   LoadedProgram loaded_;
   ScheduleHooks* hooks_;
   TaskWatch* taskWatch_ = nullptr;
+  OutsideWatch* outside_ = nullptr;
   bool latching_ = false;
   bool neededCopiesOnly_ = false;
   std::unique_ptr<rung_ctx> ctx_;

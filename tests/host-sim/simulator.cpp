@@ -43,6 +43,8 @@ class Model {
 public:
   explicit Model(const Programs& programs) : programs_(programs), world_(programs) {}
 
+  // The end; the result is the same for the recording.
+  std::string finish() { return world_.finish(); }
   std::string happen(const Event& event) {
     if (!world_.isOn() && event.what != "room" && event.what != "off" && event.what != "cut") return "";
     wrong_.clear();
@@ -533,7 +535,7 @@ std::string run(const Programs& programs, const std::vector<Event>& events) {
   for (size_t i = 0; i < events.size(); ++i)
     if (const std::string wrong = model.happen(events[i]); !wrong.empty())
       return "event " + std::to_string(i + 1) + ", " + textOf(events[i]) + ": " + wrong;
-  return "";
+  return model.finish();
 }
 
 std::vector<Event> minimised(const Programs& programs, std::vector<Event> events) {

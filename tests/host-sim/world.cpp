@@ -34,6 +34,8 @@ name = "sim"
 timeout = 0.101
 status = "far-ok"
 pins = { far = 0, lamp = 0 }
+[recording]
+off = true
 [rungctl]
 permissions = ["set", "force", "reload", "start", "stop", "reset", "profile", "serve"]
 protected = ["OTHER"]
@@ -107,6 +109,7 @@ void World::switchOn() {
   const auto newInstance = [this](const Image& image, const rung_instance_options& options) {
     Instance made(image, &options);
     api::setOutside(*made.handle(), {.disk = &disk, .savePeriod = std::chrono::milliseconds(0)});
+    recorded_.begin(*made.handle(), disk);
     return made;
   };
   try {
@@ -235,7 +238,13 @@ void World::pass(int64_t ns) {
   }
 }
 
+std::string World::finish() {
+  if (isOn()) cutPower();
+  return recorded_.play();
+}
+
 void World::turn() {
+  recorded_.look(*host_->instance());
   controller_->serveProgram(&clients);
   controller_->serveClients(clients);
   noteChanges(wholeScans, cell("SCANS"));

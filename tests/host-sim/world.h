@@ -18,6 +18,7 @@
 #include "rtlib/load/file.h"
 #include "rtlib/run/clock.h"
 #include "tests/host-sim/programs.h"
+#include "tests/host-sim/recorded.h"
 
 namespace rung::host_sim {
 
@@ -69,6 +70,8 @@ public:
   void pass(int64_t ns);
   void turn(); // of the thread that serves
   void lookForSaving();
+  // The end: what was recorded is played. Returns what went otherwise, or "".
+  std::string finish();
   nlohmann::json ask(uint32_t peer, const nlohmann::json& request);
   void leave(uint32_t peer);
   void setPin(const std::string& name, bool value);
@@ -120,6 +123,7 @@ private:
   control::Peer peerOf(uint32_t number) const;
 
   const Programs& programs_;
+  Recorded recorded_{programs_};
   int64_t nowNs_ = 1'000'000'000;
   int64_t dueNs_ = 0;
   std::vector<std::string> pins_; // their names

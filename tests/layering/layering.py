@@ -71,7 +71,7 @@ FOREIGN = {
     "pugixml.hpp": ("tools/rungc",),
     "toml++/": ("rtlib/text",),
     "utf8proc.h": ("ir/support",),
-    "zlib.h": ("rtlib/load", "rtlib/retain", "compiler"),
+    "zlib.h": ("rtlib/load", "rtlib/retain", "rtlib/record", "compiler"),
     "sodium.h": ("rtlib/load", "rtlib/retain", "machine/control", "machine/compile"),
     "gtest/": (),
     "gmock/": (),
@@ -91,7 +91,7 @@ NAMESPACES = {
     "machine/host": "host", "machine/io": "io", "machine/control": "control", "machine/compile": "compile", "machine/rung-compile": "rung_compile",
     "machine/command-line": "cli", "machine/rung-run": "rung_run", "machine/rung-hal": "hal", "machine/rungctl": "rungctl",
     "sim": "sim", "sim/plugin": "rung_run",  # what rung-run declares, it defines
-    "tools/rungc": "rungc", "tools/scenario": "scenario", "tools/report": "report", "tools/view": "view", "tools/web": "web", "tools/bind": "bind", "tools/imported": "imported",
+    "tools/rungc": "rungc", "tools/scenario": "scenario", "tools/report": "report", "tools/replay": "replay", "tools/view": "view", "tools/web": "web", "tools/bind": "bind", "tools/imported": "imported",
     "tools/bench": "bench",
 }
 NAMESPACE = re.compile(r"^namespace rung(?:::([\w:]+))?(?= *\{)", re.MULTILINE)

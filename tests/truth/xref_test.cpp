@@ -136,7 +136,12 @@ public:
       : listing_(compiled), lines_(std::move(lines)), found_(found) {}
 
   void rungRan(uint32_t, std::span<const uint64_t>) override {}
-  void touched(uint32_t rung, const BitRange& place, bool writes) override {
+  void accessed(const ir::Access& access) override {
+    if (!access.slot.valid()) touched(access.rung, access.place, access.writes);
+  }
+
+private:
+  void touched(uint32_t rung, const BitRange& place, bool writes) {
     const uint64_t where = hashNumber(uint64_t{place.space.index} << 32 | place.first, kHashSeed);
     if (!seen_.insert(hashNumber(uint64_t{rung} << 32 | place.count << 1 | (writes ? 1 : 0), where)).second) return;
     const rung_program& program = listing_.program();
@@ -146,8 +151,6 @@ public:
     const BitRange unmarked = withoutMark(program, *variable);
     if (unmarked != *variable) check(rung, unmarked, writes);
   }
-
-private:
   void check(uint32_t rung, const BitRange& place, bool writes) {
     const rung_program& program = listing_.program();
     ++found_.held;

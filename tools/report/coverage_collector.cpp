@@ -130,28 +130,11 @@ void CoverageCollector::addMarks(const Part& part, const Plan& plan,
   }
 }
 
-std::vector<std::vector<CoverageCollector::Guard>> CoverageCollector::guardsOf(const ir::Rung& rung) {
-  std::vector<std::vector<Guard>> guards(rung.values.size());
-  std::vector<Guard> open;
-  for (const ir::Op& op : rung.ops) {
-    if (op.code == ir::OpCode::EndIf) open.pop_back();
-    if (op.code == ir::OpCode::Else) open.back().wanted = false;
-    if (op.code == ir::OpCode::If) open.push_back({ir::arg(rung, op, 0).index, true});
-    for (uint32_t i = 0; i < op.resultCount; ++i) guards[op.result.index + i] = open;
-  }
-  return guards;
-}
-
 Program CoverageCollector::program() const {
   Program program = program_;
   std::sort(program.rungs.begin(), program.rungs.end(),
             [](const Rung& a, const Rung& b) { return a.number < b.number; });
   return program;
-}
-
-bool CoverageCollector::Watched::reached(std::span<const uint64_t> values) const {
-  return std::all_of(guards.begin(), guards.end(),
-                     [&](const Guard& guard) { return (values[guard.value] != 0) == guard.wanted; });
 }
 
 void CoverageCollector::rungRan(uint32_t number, std::span<const uint64_t> values) {

@@ -15,6 +15,7 @@
 #include "ir/core/module.h"
 #include "ir/interp/interp.h"
 #include "tools/report/coverage_report.h"
+#include "tools/report/guards.h"
 
 namespace rung::report {
 
@@ -61,17 +62,11 @@ public:
   Program program() const;
 
 private:
-  // Whether the operation that computes a value was reached: each condition of the regions around it must have this
-  // value.
-  struct Guard {
-    uint32_t value = 0;
-    bool wanted = true;
-  };
   struct Watched {
     uint32_t value = 0;
     uint32_t index = 0; // index of a condition, output or decision of the rung
     std::vector<Guard> guards;
-    bool reached(std::span<const uint64_t> values) const;
+    bool reached(std::span<const uint64_t> values) const { return report::reached(guards, values); }
   };
   // What is counted of one rung of the module.
   struct Plan {
@@ -94,7 +89,6 @@ private:
     uint32_t decisions = 0;
     bool first = false;
   };
-  static std::vector<std::vector<Guard>> guardsOf(const ir::Rung& rung);
   static bool isSame(const Part& a, const Part& b);
   bool locate(const ir::Module& module, Part& part, std::vector<Part>& known);
   Plan planOf(const ir::Module& module, Part part, std::vector<Part>& known);

@@ -35,6 +35,7 @@ int main(int argc, char** argv) {
   addDiff(app, status);
   addRun(app, status);
   addTest(app, status);
+  addReplay(app, status);
   addProfile(app, status);
   addWcet(app, status);
   addExplain(app, status);

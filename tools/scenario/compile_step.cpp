@@ -115,6 +115,7 @@ compiler::CompileRequest requestOf(const Scenario& scenario, const CompileSettin
   request.options.strict = settings.strict;
   request.instrument = settings.instrument;
   request.marks = settings.marks;
+  request.optimise = settings.optimise;
   request.keepBuilt = true;
   request.keepSource = firstOf(scenario, Kind::ExpectWarning) != nullptr;
   for (const Statement& s : scenario.statements) {

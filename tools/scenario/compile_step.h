@@ -27,6 +27,7 @@ struct CompileSettings {
   bool strict = false;
   bool instrument = false;
   bool marks = false;
+  bool optimise = true;
 };
 
 // `programs`: if not empty, they replace the files that the scenario names.

@@ -21,9 +21,6 @@
 
 namespace rung::scenario {
 
-namespace {
-
-// Splits at blanks; the last word may be empty.
 std::vector<std::string> typedWords(std::string_view line) {
   std::vector<std::string> words(1);
   for (const char c : line) {
@@ -34,6 +31,8 @@ std::vector<std::string> typedWords(std::string_view line) {
   }
   return words;
 }
+
+namespace {
 
 std::string formLine(const StatementForm& form) { return fmt::format("  {:<42} {}", form.form, form.meaning); }
 

@@ -118,20 +118,37 @@ std::string commonStart(const std::vector<std::string>& words);
 
 enum class Outcome : uint8_t { Done, Failed, Interrupted, Quit };
 
-class Console {
+// What executes the lines of a prompt (prompt.h).
+class Interpreter {
+public:
+  virtual ~Interpreter() = default;
+  // Executes one line as typed; empty lines and comments do nothing.
+  virtual Outcome execute(std::string_view line) = 0;
+  // Such as "scan 3, 0.030 s> ".
+  virtual std::string prompt() const = 0;
+  // Completions of the last word of the line, up to the cursor.
+  virtual std::vector<std::string> completions(std::string_view line) = 0;
+  virtual std::string_view greeting() const = 0;
+};
+
+// The words of a line as typed; the last one is empty after a blank.
+std::vector<std::string> typedWords(std::string_view line);
+
+class Console final : public Interpreter {
 public:
   // All references must outlive the console.
   Console(Session& session, Watch& watch, Recording& recording, const Explainer& explainer, Print print);
 
-  // Executes one line as typed; empty lines and comments do nothing. A fault is reported.
-  Outcome execute(std::string_view line);
+  // Reports a fault, too.
+  Outcome execute(std::string_view line) override;
   // Executes a statement that was not typed: from --set or --scenario.
   Outcome execute(const Statement& statement);
 
-  // The prompt with the session's scan and time: "scan 3, 0.030 s> ".
-  std::string prompt() const;
-  // Completions of the last word of the line, up to the cursor.
-  std::vector<std::string> completions(std::string_view line);
+  std::string prompt() const override; // with the session's scan and time
+  std::vector<std::string> completions(std::string_view line) override;
+  std::string_view greeting() const override {
+    return "Statements as in a scenario; Tab completes, help lists them, quit ends.";
+  }
 
 private:
   struct Command {

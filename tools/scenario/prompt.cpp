@@ -26,9 +26,9 @@ namespace {
 
 bool ends(Signal& signal) { return signal != 0 && signal != SIGINT; }
 
-void runTerminal(Console& console, Signal& signal, const std::function<void()>& begins) {
+void runTerminal(Interpreter& console, Signal& signal, const std::function<void()>& begins) {
   LineEditor editor([&](std::string_view line) { return console.completions(line); }, signal);
-  std::cout << "Statements as in a scenario; Tab completes, help lists them, quit ends." << std::endl;
+  std::cout << console.greeting() << std::endl;
   while (!ends(signal)) {
     const std::optional<std::string> line = editor.read(console.prompt());
     if (!line) std::cout << std::endl; // puts the shell's prompt on a new line
@@ -43,7 +43,7 @@ void runTerminal(Console& console, Signal& signal, const std::function<void()>& 
 
 } // namespace
 
-bool runPrompt(Console& console, Signal& signal, const std::function<void()>& begins) {
+bool runPrompt(Interpreter& console, Signal& signal, const std::function<void()>& begins) {
   if (isatty(STDIN_FILENO) != 0 && isatty(STDOUT_FILENO) != 0) {
     runTerminal(console, signal, begins);
     return true;

@@ -92,6 +92,6 @@ private:
 
 // True: no line failed. Always true at a terminal, where the user can correct a failed line. SIGINT in `signal`
 // interrupts a statement, any other signal ends the prompt. `begins` is called before every line.
-bool runPrompt(Console& console, Signal& signal, const std::function<void()>& begins);
+bool runPrompt(Interpreter& console, Signal& signal, const std::function<void()>& begins);
 
 } // namespace rung::scenario

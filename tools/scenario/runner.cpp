@@ -56,8 +56,9 @@ private:
 
   // All problems before the first scan are reported together.
   void compileAndRun() {
+    const bool observed = options_.engine.observer != nullptr;
     const CompileSettings settings{
-        .strict = options_.strict, .instrument = options_.instrument, .marks = options_.engine.observer != nullptr};
+        .strict = options_.strict, .instrument = options_.instrument, .marks = observed, .optimise = !observed};
     CompileStep step = compileProgram(scenario_, options_.programs, settings);
     note(step);
     if (options_.strict && result_.expectsNothing) fail(scenario_.statements[0], kExpectsNothing);
@@ -72,6 +73,7 @@ private:
     add(result_.problems, unfitValues(scenario_, session_.instance(), session_.nc()));
     if (!result_.problems.empty() || !observe(program_->compiled())) return;
     runStatements();
+    if (options_.ended) options_.ended(session_);
   }
 
   void note(const CompileStep& step) {

@@ -22,6 +22,8 @@ struct RunOptions {
   // Called between the start and the first statement, to attach observers, which must outlive the run. Returns "" or
   // why the scenario cannot run.
   std::function<std::string(Session&, const compiler::Compiled&)> started;
+  // Called after the last statement, or the one that failed. May be empty.
+  std::function<void(Session&)> ended;
 };
 
 struct RunResult {

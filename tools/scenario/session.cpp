@@ -209,6 +209,7 @@ std::optional<Problem> Session::execute(const Statement& s) {
   const StatementInfo& info = StatementInfo::of(s);
   std::string problem;
   statement_ = &s;
+  for (Observer* observer : observers_) observer->executing(*this, s);
   if (info.run != nullptr)
     problem = (this->*info.run)(s);
   else if (info.stage == Stage::Include)

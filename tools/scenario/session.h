@@ -42,6 +42,8 @@ public:
   virtual ~Observer() = default;
   // Called at the start and after every restart; for an observer that is added later, at once.
   virtual void started(Session& session) { (void)session; }
+  // Called before a statement is executed.
+  virtual void executing(const Session& session, const Statement& statement) { (void)session, (void)statement; }
   // Called after every scan, slot and run of the fast part, once the engines have been compared.
   virtual void scanned(const Session& session) = 0;
   // Called after another program has taken over.

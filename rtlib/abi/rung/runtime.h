@@ -588,7 +588,8 @@ RUNG_API int32_t rung_instance_unsaved(const rung_instance* instance, char* text
 /* The state between two scans as bytes: everything on which further scans depend except the host and the settings that
  * it has made. It includes the memory with the compiler's own cells, the clock, a fault, the operator's stop, the
  * tickets of requests with the requests and replies that wait, the control's handshakes and messages, a simulated
- * control with its machine, and the number of scans. The same program has the same states on every engine and machine. */
+ * control with its machine, and the number of scans. The same program has the same states on every engine and machine.
+ */
 
 /* Writes the state to `bytes`; `used` receives its size. A null pointer with size 0 only asks for the size. RUNG_LATER:
  * within a scan. RUNG_BAD_ARGUMENT: the state is larger than `size`; the contents of `bytes` are unspecified.
@@ -604,6 +605,51 @@ RUNG_API int32_t rung_instance_load(rung_instance* instance, const void* bytes, 
 /* Sets the program's clock, between two slices; timers see the difference as elapsed time. RUNG_BAD_ARGUMENT: it would
  * go back, or advance by more than an hour. [rt] */
 RUNG_API int32_t rung_instance_set_clock(rung_instance* instance, int64_t now_us);
+
+/* ---- recording -------------------------------------------------------------------------------------------------- */
+
+/* What the host does to an instance while its program runs, in files of a folder (docs/recording.md), from which a
+ * developer computes every moment again: inputs, written cells, answers, functions, forces, replacements, the clock,
+ * and the whole state now and then. The scan thread hands over a few bytes and never waits; a thread of the library
+ * packs and writes them. If it cannot keep pace or the disk is full, the recording has gaps, which it names. */
+
+typedef struct rung_recording_options {
+  uint32_t size;
+  uint32_t state_ms;    /* of the program's clock, between two whole states; 0: 10000 */
+  const char* folder;   /* made if it does not exist; one instance records into it at a time */
+  uint64_t limit_bytes; /* of all files but kept ones; the oldest are deleted. 0: 512 MB */
+  uint64_t kept_bytes;  /* the same of kept ones; 0: 256 MB */
+} rung_recording_options;
+
+/* Begins to record an instance, best before the first power-on; null ends the recording. No other thread may be using
+ * the other functions of this section meanwhile. RUNG_FAILED: the folder or the file of the program cannot be written,
+ * or another process records there. RUNG_WRONG_STATE: it is recorded already, or blocks or structs are bound that the
+ * program reads. */
+RUNG_API int32_t rung_instance_record(rung_instance* instance, const rung_recording_options* options);
+
+/* Writes a text of at most 400 bytes into the recording, and keeps the files of now. [any] */
+RUNG_API int32_t rung_instance_mark(rung_instance* instance, const char* text);
+
+/* Keeps the files of now: they are not deleted before `kept_bytes` is reached. [any] */
+RUNG_API int32_t rung_instance_keep_recording(rung_instance* instance);
+
+/* For two seconds what is recorded is in the file after 33 ms instead of 80 ms. [any] */
+RUNG_API int32_t rung_instance_follow_recording(rung_instance* instance);
+
+typedef struct rung_recording_info {
+  uint32_t size;
+  uint32_t reserved;
+  int64_t since_us; /* since 1970, UTC: when the oldest file began; 0: there is none */
+  uint64_t bytes;   /* of all files of recordings in the folder */
+  uint64_t written; /* bytes written since the recording began */
+  uint64_t losses;  /* gaps since then: the ring was full, or the disk */
+  char folder[512];
+  char file[512];    /* that is written now; "": none */
+  char problem[512]; /* why nothing is written; "": all is well */
+} rung_recording_info;
+
+/* RUNG_WRONG_STATE: nothing is recorded. [any] */
+RUNG_API int32_t rung_instance_recording(const rung_instance* instance, rung_recording_info* info);
 
 /* ---- profile ---------------------------------------------------------------------------------------------------- */
 

@@ -308,6 +308,19 @@ public:
     return state;
   }
   void load(std::span<const uint8_t> state) { check(rung_instance_load(handle(), state.data(), state.size())); }
+  void record(const rung_recording_options& options) { check(rung_instance_record(handle(), &options)); }
+  void endRecording() { check(rung_instance_record(handle(), nullptr)); }
+  void mark(const std::string& text) { check(rung_instance_mark(handle(), text.c_str())); }
+  void keepRecording() { check(rung_instance_keep_recording(handle())); }
+  void followRecording() { check(rung_instance_follow_recording(handle())); }
+  // Nothing: the instance is not recorded.
+  std::optional<rung_recording_info> recording() const {
+    auto out = sized<rung_recording_info>();
+    const int32_t status = rung_instance_recording(handle(), &out);
+    if (status == RUNG_WRONG_STATE) return std::nullopt;
+    check(status);
+    return out;
+  }
   void setClock(int64_t nowUs) { check(rung_instance_set_clock(handle(), nowUs)); }
 
   // The profile of the rung with this index in the program's tables; nothing: there are not that many.

@@ -27,15 +27,18 @@ public:
                                                                       use.place.first + use.place.count);
   }
   void rungRan(uint32_t, std::span<const uint64_t>) override {}
-  void touched(uint32_t rung, const ir::BitRange& place, bool writes) override {
+  void accessed(const ir::Access& access) override {
+    if (!access.slot.valid()) touched(access.rung, access.place, access.writes);
+  }
+
+private:
+  using Runs = std::vector<std::pair<uint32_t, uint32_t>>; // of bits: first and end
+  void touched(uint32_t rung, const ir::BitRange& place, bool writes) {
     if (isStated(rung, place, writes)) return;
     surprises_.insert(fmt::format("{} of {}: rung {} {} {} bits from {}", compiled_.module->at(place.space).name,
                                   compiled_.module->files[0], rung, writes ? "writes" : "reads", place.count,
                                   place.first));
   }
-
-private:
-  using Runs = std::vector<std::pair<uint32_t, uint32_t>>; // of bits: first and end
   bool isStated(uint32_t rung, const ir::BitRange& place, bool writes) const {
     const std::map<uint32_t, Runs>& bySpace = stated_[rung][writes];
     const auto runs = bySpace.find(place.space.index);

@@ -129,7 +129,9 @@ TEST(SmallMemory, HasPlacesToo) {
   const Memory memory(test.program, block.data());
   memory.write(memory.locate(0, 1, 2), 0xABCD);
   EXPECT_EQ(memory.read(memory.locateBit(0, 2, 7)), 1u);
-  EXPECT_EQ(block, (std::vector<uint8_t>{0, 0xCD, 0xAB, 0, 0, 0, 0, 0}));
+  std::vector<uint8_t> expected(block.size(), 0);
+  expected[1] = 0xCD, expected[2] = 0xAB;
+  EXPECT_EQ(block, expected);
 }
 
 TEST_F(MemoryTest, OneCallForAListOfPlaces) {

@@ -88,6 +88,12 @@ static void instances(rung_instance* plc) {
   BAD_HANDLE(rung_instance_save(plc, text, sizeof text, &size));
   BAD_HANDLE(rung_instance_load(plc, text, sizeof text));
   BAD_HANDLE(rung_instance_set_clock(plc, 0));
+  rung_recording_info recorded = {.size = sizeof recorded};
+  BAD_HANDLE(rung_instance_record(plc, NULL));
+  BAD_HANDLE(rung_instance_mark(plc, "a"));
+  BAD_HANDLE(rung_instance_keep_recording(plc));
+  BAD_HANDLE(rung_instance_follow_recording(plc));
+  BAD_HANDLE(rung_instance_recording(plc, &recorded));
   BAD_HANDLE(rung_instance_profile(plc, 0, &profile));
   BAD_HANDLE(rung_instance_worst_rung(plc, &profile));
   BAD_HANDLE(rung_instance_clear_profile(plc));

@@ -54,6 +54,26 @@ uint64_t Replay::hashOfAll() const {
   return hash;
 }
 
+void Replay::record(const Recording& recording, const std::string& folder) {
+  std::vector<uint8_t> masks(inside_.block().size());
+  const core::Memory memory(inside_.program(), masks.data());
+  for (const Part& part : recording.parts)
+    for (const Writes& writes : part.writes)
+      for (uint32_t i = 0; i < writes.bytes.size(); ++i) memory.writeByte(spaceOf(writes.space), writes.byte + i, 0xFF);
+  rung_instance& instance = *instance_.handle();
+  instance.recorder = std::make_unique<api::HostRecorder>(instance, runtime::RecorderOptions{});
+  auto inputs = std::make_unique<runtime::InputBits>(masks);
+  instance.recorder->programChanged(inputs);
+  writer_ = std::make_unique<runtime::RecordingWriter>(instance.recorder->stream(), runtime::RecordingMode::Control,
+                                                       runtime::RecordingOptions{.folder = folder});
+}
+
+runtime::RecordingState Replay::recorded() {
+  instance_.handle()->recorder->stream().flush();
+  writer_->look();
+  return writer_->state();
+}
+
 void Replay::drain() {
   while (instance_.nextMessage()) {
   }

@@ -2,7 +2,10 @@
 // in place of pins.
 #pragma once
 #include <cstdint>
+#include <memory>
+#include <string>
 
+#include "rtlib/record/recording_writer.h"
 #include "rtlib/run/instance.h"
 #include "rung/runtime.hpp"
 #include "tools/bench/machines/recording.h"
@@ -19,6 +22,10 @@ public:
   void run() noexcept { runPart_(instance_.handle()); }
   // Hash of all bytes of all spaces, the clock and the fault.
   uint64_t hash() const;
+  // From now on what the machine writes is recorded in a folder, as inputs of a host that writes all places of the
+  // recording before each part. `recorded` packs what has come since the last call; returns their state so far.
+  void record(const Recording& recording, const std::string& folder);
+  runtime::RecordingState recorded();
   // Empties the queues that a host would empty between two parts.
   void drain();
   const runtime::Instance& inside() const { return inside_; }
@@ -29,6 +36,7 @@ private:
 
   rung::Instance instance_;
   runtime::Instance& inside_;
+  std::unique_ptr<runtime::RecordingWriter> writer_;
   int32_t (*runPart_)(rung_instance*);
 };
 

@@ -1,0 +1,145 @@
+// What a recording consists of: events in the order in which they happened to the program, each a byte and its numbers
+// (docs/recording.md). Numbers are unsigned and take as few bytes as they need, seven bits a byte, lowest first.
+#pragma once
+#include <cstdint>
+#include <cstring>
+#include <span>
+
+namespace rung::runtime {
+
+enum class Event : uint8_t {
+  State = 1,        // COUNT BYTES: the state between two scans, as Instance::save writes it
+  Surroundings = 2, // WORKS LATCHES NEEDED: as in struct Surroundings, from now on
+  Outputs = 3,      // COUNT (SKIP COUNT)...: the bytes of the block that Hash is of, SKIP after those before
+  Forces = 4,       // COUNT (OFFSET MASK VALUE)...: from now on these bits of the block are forced
+  Part = 5,   // KIND TASK: the owner of the program is about to run this part, before which the events after it happen
+  Repeat = 6, // COUNT: the last part so often again, with no event of its own
+  Clock = 7,  // US, signed: the clock has advanced by that outside the program
+  Bytes = 8,  // OFFSET COUNT BYTES: others have written them to the block
+  Reply = 9,  // TICKET STATE COUNT RESULTS: a reply that the part, or a hook in it, finds
+  Stopped = 10, // 0 or 1: the operator's stop
+  Within = 11,  // COUNT: the events after it happen in that hook or latch of the part, counted from 0; after a Task the
+                // rest of the hook counts as another one
+  Task = 12,    // TASK: a run of a task within a hook
+  Request = 13, // SERVICE COUNT ARGS: a request that the control makes
+  Answer = 14,  // as Reply: for a request that is answered, or kept, at once
+  Ended = 15,   // the part has ended; only after events within it
+  Hash = 16,    // HASH: of the outputs after the part; without it they are as after the one before
+  Fault = 17,   // CODE RUNG LINE TASK: the part has ended with it
+  Anew = 18,    // the program was started, or another one has taken over: the next State does not follow from before
+  Mark = 19,    // COUNT BYTES: a text
+  Lost = 20,    // events are missing, up to the next State
+  Program = 21, // HASH: the program of the next State (rung_program::code_hash); where a recording may begin
+  // Only where the control of the dialect runs again (HostRecorder):
+  Inputs = 22, // COUNT (SKIP BYTES MASKS)...: bits that the host writes before each slice, first as in the next State
+  Input = 23,  // OFFSET COUNT BYTES: from now on the host writes these
+  Configured = 24, // KIND A B COUNT TEXT: struct Configured
+  Function = 25,   // CHANNEL KIND CODE: the host has begun a function
+  Abort = 26,      // CHANNEL: it has aborted all of them
+  Served = 27,     // 0 or 1: whether a CNC carries out requests
+  Saved = 28,      // the memory that the program has asked to save is on disk
+  Decision = 29,   // enum rung_answer: what the host has said to a request, if it has not answered it
+};
+
+// Writes events to memory of the caller. One that does not fit is left out, and so is everything after it.
+class EventWriter {
+public:
+  explicit EventWriter(std::span<uint8_t> to) noexcept : to_(to) {}
+
+  size_t size() const noexcept { return size_; }
+  bool fits() const noexcept { return fits_; }
+  std::span<const uint8_t> written() const noexcept { return to_.first(size_); }
+  // Room for what the caller writes itself; `advance` says how much that was.
+  std::span<uint8_t> rest() const noexcept { return to_.subspan(size_); }
+  void advance(size_t bytes) noexcept {
+    fits_ = fits_ && bytes <= to_.size() - size_;
+    if (fits_) size_ += bytes;
+  }
+  // Removes what was written after that size.
+  void cut(size_t size) noexcept {
+    size_ = size;
+    fits_ = true;
+  }
+
+  template <class... Numbers>
+  void put(Event event, Numbers... numbers) noexcept {
+    putByte(static_cast<uint8_t>(event));
+    (putNumber(static_cast<uint64_t>(numbers)), ...);
+  }
+  void putNumber(uint64_t number) noexcept {
+    for (; number >= 0x80; number >>= 7) putByte(static_cast<uint8_t>(number | 0x80));
+    putByte(static_cast<uint8_t>(number));
+  }
+  void putBytes(std::span<const uint8_t> bytes) noexcept {
+    fits_ = fits_ && bytes.size() <= to_.size() - size_;
+    if (!fits_ || bytes.empty()) return;
+    std::memcpy(to_.data() + size_, bytes.data(), bytes.size());
+    size_ += bytes.size();
+  }
+
+private:
+  void putByte(uint8_t byte) noexcept {
+    fits_ = fits_ && size_ < to_.size();
+    if (fits_) to_[size_++] = byte;
+  }
+
+  std::span<uint8_t> to_;
+  size_t size_ = 0;
+  bool fits_ = true;
+};
+
+// Reads events. After bytes that are cut off `good` is false, and everything further reads as 0.
+class EventReader {
+public:
+  explicit EventReader(std::span<const uint8_t> from) noexcept : from_(from) {}
+
+  bool good() const noexcept { return good_; }
+  bool atEnd() const noexcept { return !good_ || at_ == from_.size(); }
+  size_t position() const noexcept { return at_; }
+  // The event that follows, which stays; only if it is not the end.
+  Event next() const noexcept { return static_cast<Event>(from_[at_]); }
+
+  Event takeEvent() noexcept { return static_cast<Event>(takeByte()); }
+  uint64_t takeNumber() noexcept {
+    uint64_t number = 0;
+    for (uint32_t shift = 0; shift < 64; shift += 7) {
+      const uint8_t byte = takeByte();
+      number |= uint64_t{byte & 0x7Fu} << shift;
+      if (byte < 0x80) return number;
+    }
+    good_ = false;
+    return 0;
+  }
+  uint32_t takeNumber32() noexcept {
+    const uint64_t number = takeNumber();
+    good_ = good_ && number <= UINT32_MAX;
+    return good_ ? static_cast<uint32_t>(number) : 0;
+  }
+  // Empty if there are not that many.
+  std::span<const uint8_t> takeBytes(uint64_t count) noexcept {
+    good_ = good_ && count <= from_.size() - at_;
+    if (!good_) return {};
+    at_ += count;
+    return from_.subspan(at_ - count, count);
+  }
+
+private:
+  uint8_t takeByte() noexcept {
+    good_ = good_ && at_ < from_.size();
+    return good_ ? from_[at_++] : uint8_t{0};
+  }
+
+  std::span<const uint8_t> from_;
+  size_t at_ = 0;
+  bool good_ = true;
+};
+
+// Signed numbers: 0, -1, 1, -2, ...
+inline uint64_t zigzag(int64_t value) noexcept {
+  return static_cast<uint64_t>(value) << 1 ^ static_cast<uint64_t>(value >> 63);
+}
+inline int64_t unzigzag(uint64_t number) noexcept {
+  return static_cast<int64_t>(number >> 1) ^ -static_cast<int64_t>(number & 1);
+}
+
+} // namespace rung::runtime

@@ -1,0 +1,118 @@
+// See watched_bytes.h.
+#include "rtlib/record/watched_bytes.h"
+
+#include <algorithm>
+#include <bit>
+#include <span>
+#include <utility>
+
+namespace rung::runtime {
+
+BlockBytes readBytes(const rung_program& program) {
+  BlockBytes bytes(program.memory_size);
+  for (const rung_span& span : std::span(program.reads, program.read_count))
+    std::fill_n(bytes.begin() + span.offset, span.size, true);
+  return bytes;
+}
+
+BlockBytes writtenBytes(const rung_program& program) {
+  BlockBytes bytes(program.memory_size);
+  for (const rung_written& written : std::span(program.writes, program.write_count))
+    std::fill_n(bytes.begin() + written.offset, written.size, true);
+  for (const rung_copy& copy : std::span(program.copies, program.copy_count))
+    std::fill_n(bytes.begin() + copy.to, copy.size, true);
+  return bytes;
+}
+
+namespace {
+
+bool anyOf(const BlockBytes& bytes, uint32_t offset, uint32_t count) {
+  const auto end = std::min<size_t>(bytes.size(), size_t{offset} + count);
+  return std::find(bytes.begin() + offset, bytes.begin() + static_cast<ptrdiff_t>(end), true) !=
+         bytes.begin() + static_cast<ptrdiff_t>(end);
+}
+
+// The offsets of pieces that together have all bytes. The last one of a block ends with it.
+std::vector<uint32_t> piecesOf(const BlockBytes& bytes, uint32_t piece) {
+  std::vector<uint32_t> pieces;
+  const auto size = static_cast<uint32_t>(bytes.size());
+  const uint32_t last = std::max(size, piece) - piece;
+  for (uint32_t at = 0; at < size;) {
+    if (!bytes[at]) {
+      ++at;
+      continue;
+    }
+    pieces.push_back(std::min(at, last));
+    at = pieces.back() + piece;
+  }
+  return pieces;
+}
+
+std::vector<rung_span> spansOf(const BlockBytes& bytes) {
+  std::vector<rung_span> spans;
+  for (uint32_t at = 0; at < bytes.size(); ++at) {
+    if (!bytes[at]) continue;
+    if (spans.empty() || spans.back().offset + spans.back().size != at) spans.push_back({at, 0});
+    ++spans.back().size;
+  }
+  return spans;
+}
+
+} // namespace
+
+WatchedBytes::WatchedBytes(const rung_program& program, const BlockBytes& bytes)
+    : offsets_(piecesOf(bytes, kPiece)), spans_(spansOf(bytes)) {
+  const BlockBytes written = writtenBytes(program);
+  const auto isInput = [&](uint32_t offset) { return !anyOf(written, offset, kPiece); };
+  inputs_ = static_cast<size_t>(std::stable_partition(offsets_.begin(), offsets_.end(), isInput) - offsets_.begin());
+  while (offsets_.size() % kStep != 0) offsets_.push_back(offsets_.back());
+  known_.assign(offsets_.size(), Words{});
+  for (const uint32_t offset : offsets_) {
+    std::array<uint8_t, kPiece> mask{};
+    for (uint32_t b = 0; b < kPiece && offset + b < bytes.size(); ++b) mask[b] = bytes[offset + b] ? 0xFF : 0;
+    masks_.push_back(std::bit_cast<Words>(mask));
+  }
+}
+
+void WatchedBytes::list(EventWriter& writer) const noexcept {
+  writer.putNumber(spans_.size());
+  uint32_t end = 0;
+  for (const rung_span& span : spans_) {
+    writer.putNumber(span.offset - end);
+    writer.putNumber(span.size);
+    end = span.offset + span.size;
+  }
+}
+
+size_t WatchedBytes::listed() const noexcept {
+  constexpr size_t kNumber = 5; // bytes of a number of 32 bits
+  return kNumber * (1 + 2 * spans_.size());
+}
+
+std::optional<WatchedBytes> WatchedBytes::fromList(const rung_program& program, EventReader& reader) {
+  BlockBytes bytes(program.memory_size);
+  uint64_t end = 0;
+  for (uint64_t count = reader.takeNumber(); count != 0 && reader.good(); --count) {
+    const uint64_t offset = end + reader.takeNumber32();
+    const uint32_t size = reader.takeNumber32();
+    end = offset + size;
+    if (!reader.good() || size == 0 || end > bytes.size()) return std::nullopt;
+    std::fill_n(bytes.begin() + static_cast<ptrdiff_t>(offset), size, true);
+  }
+  return reader.good() ? std::optional<WatchedBytes>(std::in_place, program, bytes) : std::nullopt;
+}
+
+// FNV-1a, by words of eight bytes.
+uint32_t WatchedBytes::hash(const uint8_t* block) const noexcept {
+  constexpr uint64_t kPrime = 1099511628211u;
+  uint64_t hash = 14695981039346656037u;
+  for (const rung_span& span : spans_)
+    for (uint32_t i = 0; i < span.size; i += sizeof(uint64_t)) {
+      uint64_t word = 0;
+      std::memcpy(&word, block + span.offset + i, std::min<size_t>(sizeof word, span.size - i));
+      hash = (hash ^ word) * kPrime;
+    }
+  return static_cast<uint32_t>(hash ^ hash >> 32);
+}
+
+} // namespace rung::runtime

@@ -1,0 +1,317 @@
+// Reads and evaluates conditions (see condition.h).
+#include "tools/replay/condition.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <charconv>
+#include <fmt/format.h>
+#include <utility>
+
+namespace rung::replay {
+namespace {
+
+struct Token {
+  std::string text;
+  bool quoted = false;
+};
+
+constexpr std::array<std::string_view, 8> kComparisons = {"==", "!=", "<=", ">=", "<>", "=", "<", ">"};
+
+std::string_view comparisonAt(std::string_view text) {
+  for (const std::string_view comparison : kComparisons)
+    if (text.starts_with(comparison)) return comparison;
+  return {};
+}
+
+// A bracket of an index belongs to its name.
+Result<std::vector<Token>> tokensOf(std::string_view text) {
+  std::vector<Token> tokens;
+  bool open = false; // the last token goes on
+  while (!text.empty()) {
+    const std::string_view comparison = comparisonAt(text);
+    if (text[0] == ' ' || text[0] == '\t') {
+      open = false;
+      text.remove_prefix(1);
+    } else if (text[0] == '"') {
+      const size_t end = text.find('"', 1);
+      if (end == std::string_view::npos) return failure("the quotation mark is not closed");
+      tokens.push_back({std::string(text.substr(1, end - 1)), true});
+      open = false;
+      text.remove_prefix(end + 1);
+    } else if (text[0] == '(' || text[0] == ')') {
+      tokens.push_back({std::string(1, text[0])});
+      open = false;
+      text.remove_prefix(1);
+    } else if (!comparison.empty()) {
+      tokens.push_back({std::string(comparison)});
+      open = false;
+      text.remove_prefix(comparison.size());
+    } else {
+      if (!open) tokens.emplace_back();
+      tokens.back().text += text[0];
+      open = true;
+      text.remove_prefix(1);
+    }
+  }
+  return tokens;
+}
+
+} // namespace
+
+class Condition::Parser {
+public:
+  Parser(Condition& to, std::vector<Token> tokens, const Locate& locate)
+      : to_(to), tokens_(std::move(tokens)), locate_(locate) {}
+
+  // "" or what is wrong.
+  std::string run() {
+    const uint32_t root = either();
+    if (problem_.empty() && at_ < tokens_.size())
+      problem_ = fmt::format("expected and, or, a comparison or the end, found '{}'", tokens_[at_].text);
+    if (problem_.empty() && root + 1 != to_.nodes_.size()) add({.kind = Kind::And, .a = root, .b = root});
+    return problem_;
+  }
+
+private:
+  bool take(std::string_view word, std::string_view other = {}) {
+    if (at_ == tokens_.size() || tokens_[at_].quoted) return false;
+    if (tokens_[at_].text != word && (other.empty() || tokens_[at_].text != other)) return false;
+    ++at_;
+    return true;
+  }
+  uint32_t add(const Node& node) {
+    to_.nodes_.push_back(node);
+    return static_cast<uint32_t>(to_.nodes_.size() - 1);
+  }
+  uint32_t either() {
+    uint32_t left = both();
+    while (problem_.empty() && take("or", "||")) {
+      const uint32_t right = both();
+      left = add({.kind = Kind::Or, .a = left, .b = right});
+    }
+    return left;
+  }
+  uint32_t both() {
+    uint32_t left = term();
+    while (problem_.empty() && take("and", "&&")) {
+      const uint32_t right = term();
+      left = add({.kind = Kind::And, .a = left, .b = right});
+    }
+    return left;
+  }
+  uint32_t term() {
+    if (take("not")) {
+      const uint32_t of = term();
+      return add({.kind = Kind::Not, .a = of});
+    }
+    if (take("(")) {
+      const uint32_t inside = either();
+      if (problem_.empty() && !take(")")) problem_ = "a bracket is not closed";
+      return inside;
+    }
+    for (const auto& [word, kind] :
+         {std::pair("rises", Kind::Rises), std::pair("falls", Kind::Falls), std::pair("changes", Kind::Changes)})
+      if (take(word)) return add({.kind = kind, .a = operand()});
+    return comparison();
+  }
+  uint32_t comparison() {
+    const uint32_t left = operand();
+    if (!problem_.empty()) return 0;
+    const std::string_view word =
+        at_ < tokens_.size() && !tokens_[at_].quoted ? comparisonAt(tokens_[at_].text) : std::string_view();
+    if (word.empty()) return add({.kind = Kind::Value, .a = left});
+    ++at_;
+    const uint32_t right = operand();
+    if (word == "=" || word == "==") return add({.kind = Kind::Equal, .a = left, .b = right});
+    if (word == "!=" || word == "<>") return add({.kind = Kind::NotEqual, .a = left, .b = right});
+    const bool swapped = word[0] == '>';
+    const Kind kind = word.size() == 1 ? Kind::Less : Kind::LessEqual;
+    return add({.kind = kind, .a = swapped ? right : left, .b = swapped ? left : right});
+  }
+  // A number, on, off, or a name.
+  uint32_t operand() {
+    if (at_ == tokens_.size()) {
+      problem_ = "expected a name or a number at the end";
+      return 0;
+    }
+    const Token& token = tokens_[at_++];
+    Operand operand;
+    if (token.quoted || !number(token.text, operand)) {
+      const Result<runtime::Ref> ref = locate_(token.text);
+      if (!ref.ok()) {
+        problem_ = ref.error();
+        return 0;
+      }
+      operand.name = token.text;
+      operand.ref = ref.value();
+      operand.real = ref.value().kind == runtime::RefKind::Real;
+    }
+    to_.operands_.push_back(std::move(operand));
+    return static_cast<uint32_t>(to_.operands_.size() - 1);
+  }
+  static bool number(std::string_view text, Operand& operand) {
+    if (text == "on" || text == "true" || text == "off" || text == "false") {
+      operand.integer = text == "on" || text == "true" ? 1 : 0;
+      operand.number = static_cast<double>(operand.integer);
+      return true;
+    }
+    const bool negative = text.starts_with('-');
+    std::string_view digits = text.substr(negative ? 1 : 0);
+    const int base = digits.starts_with("0x") || digits.starts_with("0X") ? 16 : 10;
+    if (base == 16) digits.remove_prefix(2);
+    uint64_t whole = 0;
+    const auto read = std::from_chars(digits.data(), digits.data() + digits.size(), whole, base);
+    if (read.ec == std::errc() && read.ptr == digits.data() + digits.size()) {
+      operand.integer = static_cast<int64_t>(negative ? 0 - whole : whole);
+      operand.number = static_cast<double>(operand.integer);
+      return true;
+    }
+    const auto real = std::from_chars(text.data(), text.data() + text.size(), operand.number);
+    operand.real = real.ec == std::errc() && real.ptr == text.data() + text.size();
+    return operand.real;
+  }
+
+  Condition& to_;
+  std::vector<Token> tokens_;
+  const Locate& locate_;
+  size_t at_ = 0;
+  std::string problem_;
+};
+
+Result<Condition> Condition::parse(std::string_view text, const Locate& locate) {
+  Result<std::vector<Token>> tokens = tokensOf(text);
+  if (!tokens.ok()) return tokens.failure();
+  if (tokens.value().empty()) return failure("expected a condition, such as X8.4 or D100 > 500");
+  Condition condition;
+  if (std::string problem = Parser(condition, std::move(tokens).value(), locate).run(); !problem.empty())
+    return failure(std::move(problem));
+  return condition;
+}
+
+std::string Condition::locate(const Locate& locate) {
+  for (Operand& operand : operands_) {
+    if (operand.name.empty()) continue;
+    const Result<runtime::Ref> ref = locate(operand.name);
+    if (!ref.ok()) return ref.error();
+    operand.ref = ref.value();
+    operand.place = {};
+  }
+  restart();
+  return {};
+}
+
+bool Condition::holds(const core::Memory& memory) {
+  for (Operand& operand : operands_)
+    if (!operand.name.empty() && operand.place.outside()) operand.place = runtime::locate(memory, operand.ref);
+  const bool result = holds(static_cast<uint32_t>(nodes_.size() - 1), memory);
+  started_ = true;
+  return result;
+}
+
+// Both sides of and, or are evaluated, as they may compare with the last call.
+bool Condition::holds(uint32_t index, const core::Memory& memory) {
+  Node& node = nodes_[index];
+  switch (node.kind) {
+  case Kind::And:
+  case Kind::Or: {
+    const bool a = holds(node.a, memory), b = holds(node.b, memory);
+    return node.kind == Kind::And ? a && b : a || b;
+  }
+  case Kind::Not: return !holds(node.a, memory);
+  case Kind::Changes:
+  case Kind::Rises:
+  case Kind::Falls: {
+    const uint64_t now = memory.read(operands_[node.a].place);
+    const uint64_t last = std::exchange(node.last, now);
+    if (!started_) return false;
+    return node.kind == Kind::Changes ? now != last
+                                      : (now != 0) != (last != 0) && (now != 0) == (node.kind == Kind::Rises);
+  }
+  default: return compare(node, memory);
+  }
+}
+
+// A pattern of bits is equal as one; otherwise integers are signed.
+bool Condition::compare(const Node& node, const core::Memory& memory) const {
+  const Operand& a = operands_[node.a];
+  const auto raw = [&](const Operand& of) {
+    return of.name.empty() ? static_cast<uint64_t>(of.integer) : memory.read(of.place);
+  };
+  if (node.kind == Kind::Value) return raw(a) != 0;
+  const Operand& b = operands_[node.b];
+  if (a.real || b.real) {
+    const auto real = [&](const Operand& of) { return of.name.empty() ? of.number : memory.readReal(of.place); };
+    switch (node.kind) {
+    case Kind::Equal: return real(a) == real(b);
+    case Kind::NotEqual: return real(a) != real(b);
+    case Kind::Less: return real(a) < real(b);
+    default: return real(a) <= real(b);
+    }
+  }
+  const auto isNumber = [&](const Operand& of) {
+    if (of.name.empty()) return of.integer;
+    return of.place.width() == 1 ? static_cast<int64_t>(memory.read(of.place)) : memory.readSigned(of.place);
+  };
+  if (node.kind == Kind::Less) return isNumber(a) < isNumber(b);
+  if (node.kind == Kind::LessEqual) return isNumber(a) <= isNumber(b);
+  const auto width = [](const Operand& of) { return of.name.empty() || of.place.apart() ? 64u : of.place.width(); };
+  const uint32_t bits = std::min(width(a), width(b));
+  const uint64_t mask = bits >= 64 ? ~uint64_t{0} : (uint64_t{1} << bits) - 1;
+  return ((raw(a) & mask) == (raw(b) & mask)) == (node.kind == Kind::Equal);
+}
+
+// ---- search ------------------------------------------------------------------------------------------------------
+
+namespace {
+
+// Calls found(part) where it begins to hold, until that returns false.
+template <class Found>
+void search(Past& past, Condition& condition, const Condition::Locate& locate, uint64_t from, uint64_t to,
+            std::string& problem, Found found) {
+  problem = past.goTo(from);
+  if (!problem.empty()) return;
+  const auto memory = [&] { return past.instance().memory(); };
+  uint32_t program = past.programNumber();
+  problem = condition.locate(locate);
+  if (!problem.empty()) return;
+  bool held = condition.holds(memory());
+  while (past.part() < to) {
+    if (!past.next()) {
+      problem = past.problem();
+      return;
+    }
+    if (past.programNumber() != program) {
+      program = past.programNumber();
+      problem = condition.locate(locate);
+      if (!problem.empty()) return;
+    }
+    const bool holds = condition.holds(memory());
+    if (holds && !held && !found(past.part())) return;
+    held = holds;
+  }
+}
+
+} // namespace
+
+std::optional<uint64_t> findNext(Past& past, Condition& condition, const Condition::Locate& locate, uint64_t from,
+                                 uint64_t to, std::string& problem) {
+  std::optional<uint64_t> found;
+  search(past, condition, locate, from, to, problem, [&](uint64_t part) {
+    found = part;
+    return false;
+  });
+  return found;
+}
+
+std::vector<uint64_t> findAll(Past& past, Condition& condition, const Condition::Locate& locate, uint64_t from,
+                              uint64_t to, size_t most, std::string& problem) {
+  std::vector<uint64_t> found;
+  search(past, condition, locate, from, to, problem, [&](uint64_t part) {
+    found.push_back(part);
+    return found.size() < most;
+  });
+  return found;
+}
+
+} // namespace rung::replay

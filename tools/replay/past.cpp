@@ -1,0 +1,271 @@
+// Goes through a recording (see past.h).
+#include "tools/replay/past.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <utility>
+
+#include "rtlib/load/program_info.h"
+#include "rtlib/nc/names/names.h"
+#include "tools/scenario/session.h"
+
+namespace rung::replay {
+
+using runtime::Event;
+using runtime::Played;
+
+namespace {
+
+constexpr size_t kMostDifferences = 100;
+constexpr uint64_t kNear = 8192; // parts before the aim in which states are kept
+
+} // namespace
+
+Result<std::unique_ptr<Past>> Past::open(const Recording& recording, const PastOptions& options) {
+  if (recording.programs.empty()) return failure("the recording has no program");
+  std::unique_ptr<Past> past(new Past(recording, options));
+  if (past->contents_.states.empty())
+    return failure(past->contents_.landmarks.empty()
+                       ? "the recording is empty"
+                       : "nothing in the recording can be played: " + past->contents_.landmarks[0].text);
+  if (std::string problem = past->goTo(past->firstPart()); !problem.empty()) return failure(problem);
+  return past;
+}
+
+// ---- places ------------------------------------------------------------------------------------------------------
+
+size_t Past::position() const { return again_ != 0 ? base_ : base_ + stage().player().position(); }
+
+Result<void> Past::useStage(uint32_t number) {
+  if (!stages_[number]) {
+    Result<std::unique_ptr<Stage>> made = Stage::make(*recording_.programs[number], options_.engine);
+    if (!made.ok()) return made.failure();
+    stages_[number] = std::move(made).value();
+  }
+  stageNumber_ = number;
+  return {};
+}
+
+void Past::play(size_t from) {
+  base_ = from;
+  again_ = 0;
+  stage().player().setEvents(events().subspan(from));
+}
+
+// Of the programs, the one whose state it is.
+bool Past::begin(const StatePoint& point) {
+  segment_ = point.segment;
+  part_ = point.part;
+  const uint32_t first = stageNumber_;
+  const auto count = static_cast<uint32_t>(recording_.programs.size());
+  for (uint32_t i = 0; i < count; ++i) {
+    const Result<void> made = useStage((first + i) % count);
+    if (!made.ok()) {
+      problem_ = made.error();
+      return false;
+    }
+    play(point.begins);
+    const Played played = stage().player().play();
+    if (played == Played::State) return true;
+    if (played != Played::Other && played != Played::Damaged) break;
+  }
+  problem_ = fmt::format("the state before part {} is of no program of this recording, or damaged", point.part + 1);
+  return false;
+}
+
+bool Past::resume(const Moment& moment) {
+  if (const Result<void> made = useStage(moment.program); !made.ok()) return false;
+  segment_ = moment.segment;
+  part_ = moment.part;
+  stage().player().setEvents(moment.events);
+  if (stage().player().play() != Played::State) return false;
+  play(moment.position);
+  if (moment.repeats == 0) return true;
+  again_ = moment.repeats;
+  againKind_ = moment.kind;
+  againNumber_ = moment.number;
+  againEvent_.resize(32);
+  runtime::EventWriter writer(againEvent_);
+  writer.put(Event::Part, static_cast<uint8_t>(moment.kind), moment.number);
+  againEvent_.resize(writer.size());
+  return true;
+}
+
+std::optional<Moment> Past::present() const {
+  std::optional<std::vector<uint8_t>> state = stage().state();
+  if (!state) return std::nullopt;
+  const runtime::Player& player = stages_[stageNumber_]->player();
+  const bool again = again_ != 0;
+  return Moment{.program = stageNumber_,
+                .segment = segment_,
+                .position = position(),
+                .part = part_,
+                .repeats = again ? again_ : player.repeatsLeft(),
+                .kind = again ? againKind_ : player.lastKind(),
+                .number = again ? againNumber_ : player.lastNumber(),
+                .events = std::move(*state)};
+}
+
+void Past::keep() {
+  if (kept_.contains(part_)) return;
+  std::optional<Moment> moment = present();
+  if (!moment) return;
+  keptBytes_ += moment->events.size();
+  kept_.emplace(part_, std::move(*moment));
+  keptOrder_.push_back(part_);
+  while (keptBytes_ > options_.keptBytes && keptOrder_.size() > 1) {
+    const auto oldest = kept_.find(keptOrder_.front());
+    keptBytes_ -= oldest->second.events.size();
+    kept_.erase(oldest);
+    keptOrder_.erase(keptOrder_.begin());
+  }
+}
+
+// ---- playing -----------------------------------------------------------------------------------------------------
+
+bool Past::playAgain() {
+  stage().player().setEvents(againEvent_);
+  if (stage().player().play() != Played::Part) return false;
+  ++part_;
+  takeSent();
+  if (--again_ == 0) play(base_);
+  return true;
+}
+
+bool Past::nextSegment() {
+  for (uint32_t next = segment_ + 1; next < recording_.segments.size(); ++next) {
+    const auto point = std::ranges::find(contents_.states, next, &StatePoint::segment);
+    if (point == contents_.states.end()) continue;
+    return begin(*point);
+  }
+  problem_.clear();
+  return false;
+}
+
+bool Past::otherProgram() {
+  const size_t ends = position();
+  const auto point = std::ranges::find_if(contents_.states,
+                                          [&](const StatePoint& p) { return p.segment == segment_ && p.ends == ends; });
+  return point != contents_.states.end() && begin(*point);
+}
+
+bool Past::next() {
+  problem_.clear();
+  sent_.clear();
+  if (again_ != 0) return playAgain();
+  for (;;) {
+    switch (stage().player().play()) {
+    case Played::Part:
+      ++part_;
+      noteDifference();
+      takeSent();
+      return true;
+    case Played::State: noteDifference(); break;
+    case Played::Lost: break;
+    case Played::End:
+      if (!nextSegment()) return false;
+      break;
+    case Played::Other:
+      if (!otherProgram()) return false;
+      break;
+    case Played::NoForces: problem_ = "its forces cannot be put in effect"; return false;
+    case Played::Damaged: problem_ = fmt::format("the recording is damaged after part {}", part_); return false;
+    }
+  }
+}
+
+void Past::takeSent() {
+  rung_message message;
+  while (stage().instance().messages().pop(message)) sent_.push_back(message);
+}
+
+void Past::noteDifference() {
+  const std::optional<runtime::PlayedDifference>& what = stage().player().difference();
+  if (!what || differences_.size() == kMostDifferences) return;
+  const auto known = std::ranges::find(differences_, part_, &Difference::part);
+  if (known != differences_.end()) return;
+  Difference difference{part_, *what, {}};
+  const rung_program& program = instance().program();
+  if (const auto byte = what->offset == RUNG_NONE ? std::nullopt : runtime::byteAt(program, what->offset))
+    difference.place = nc::describe(program, runtime::intRef(byte->space, byte->byte, 8));
+  differences_.push_back(std::move(difference));
+}
+
+std::string Past::goTo(uint64_t aim) {
+  if (aim > contents_.parts || aim < firstPart())
+    return fmt::format("the recording has parts {} to {}", firstPart(), contents_.parts);
+  const auto afterKept = kept_.upper_bound(aim);
+  const Moment* kept = afterKept == kept_.begin() ? nullptr : &std::prev(afterKept)->second;
+  // Of several states before the same part the last one is what it begins with; the part before ends with the first.
+  const auto afterPoint = std::ranges::lower_bound(contents_.states, aim, {}, &StatePoint::part);
+  const StatePoint* point = afterPoint == contents_.states.begin() ? nullptr : &*std::prev(afterPoint);
+  if (afterPoint != contents_.states.end() && afterPoint->part == aim && (point == nullptr || aim == firstPart()))
+    point = &*afterPoint;
+  const uint64_t fromKept = kept != nullptr ? kept->part : 0, fromPoint = point != nullptr ? point->part : 0;
+  const bool stay = reached_ && part_ <= aim && part_ >= std::max(fromKept, fromPoint);
+  if (!stay) {
+    reached_ = false;
+    if (kept != nullptr && (point == nullptr || fromKept >= fromPoint)) {
+      if (!resume(*kept)) return "a kept state cannot be used";
+    } else if (point == nullptr || !begin(*point)) {
+      return problem_.empty() ? "there is no state to begin with" : problem_;
+    }
+  }
+  reached_ = false;
+  while (part_ < aim) {
+    if (!next()) return problem_.empty() ? "the recording has ended" : problem_;
+    if (aim - part_ < kNear && part_ % options_.keptEvery == 0) keep();
+  }
+  reached_ = true;
+  return {};
+}
+
+std::string Past::goToTime(int64_t us) {
+  size_t low = 0, high = contents_.states.size();
+  while (high - low > 1) { // the clock at states[low] is not after `us`, or low is 0
+    const size_t middle = low + (high - low) / 2;
+    reached_ = false;
+    if (!begin(contents_.states[middle])) return problem_;
+    (instance().nowUs() <= us ? low : high) = middle;
+  }
+  if (!begin(contents_.states[low])) return problem_;
+  while (instance().nowUs() < us && next()) {
+    if (part_ % options_.keptEvery == 0) keep();
+  }
+  reached_ = problem_.empty();
+  return problem_;
+}
+
+const Flow* Past::flow(const FlowEngine::AfterRun& afterRun) {
+  const uint64_t here = part_;
+  blockBefore_.clear();
+  if (here <= firstPart() || !goTo(here - 1).empty()) {
+    (void)goTo(here);
+    return nullptr;
+  }
+  std::optional<Moment> from = present();
+  const Flow* flow = nullptr;
+  if (from) {
+    const std::span<const uint8_t> block = instance().block();
+    blockBefore_.assign(block.begin(), block.end());
+    const uint32_t before = stageNumber_;
+    keep();
+    (void)goTo(here);
+    if (stageNumber_ != before) { // the part is of another program
+      blockBefore_.clear();
+      return nullptr;
+    }
+    if (from->segment != segment_) {
+      from->segment = segment_;
+      from->position = 0;
+    }
+    flow = stage().flow(*from, recording_.segments[segment_].events, afterRun);
+  } else {
+    (void)goTo(here);
+  }
+  return flow;
+}
+
+std::string positionText(const Past& past) { return scenario::scanText(past.part(), past.instance().nowUs()); }
+
+} // namespace rung::replay

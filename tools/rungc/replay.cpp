@@ -1,0 +1,132 @@
+// rungc replay: goes through the past of a program, at a prompt or by options.
+#include <csignal>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tools/replay/console.h"
+#include "tools/replay/past.h"
+#include "tools/replay/record_run.h"
+#include "tools/rungc/commands.h"
+#include "tools/scenario/in_project.h"
+#include "tools/scenario/prompt.h"
+
+namespace rung::rungc {
+namespace {
+
+struct ReplayOptions {
+  std::string file;
+  std::optional<uint64_t> at;
+  std::vector<std::string> show;
+  std::string find;
+  std::string why;
+  std::string exported;
+  std::optional<uint64_t> from, to;
+  std::vector<std::string> watch;
+  unsigned most = 100;
+  bool json = false;
+};
+
+scenario::Signal gReplaySignal = 0; // the only variable that the signal handler writes
+
+void catchSignals() {
+  struct sigaction action{};
+  action.sa_handler = [](int signal) { gReplaySignal = signal; };
+  sigaction(SIGINT, &action, nullptr); // without SA_RESTART: a prompt that reads must notice
+  sigaction(SIGTERM, &action, nullptr);
+}
+
+// A scenario is run and recorded in memory. On failure nothing, and `status` says why.
+std::optional<replay::Recording> openRecording(const ReplayOptions& options, int& status) {
+  if (!options.file.ends_with(".scn")) {
+    status = usageError(fmt::format("'{}' is not a scenario", options.file));
+    return std::nullopt;
+  }
+  Result<scenario::Scenario> scenario = scenario::readScenario(options.file);
+  if (!scenario.ok()) {
+    status = environmentError(scenario.error());
+    return std::nullopt;
+  }
+  scenario::takeProject(scenario.value());
+  Result<replay::RecordedScenario> recorded =
+      replay::recordScenario(scenario.value(), {.engines = {compiler::EngineKind::Interp}});
+  if (!recorded.ok()) {
+    status = environmentError(fmt::format("{}: {}", options.file, recorded.error()));
+    return std::nullopt;
+  }
+  for (const scenario::Problem& problem : recorded.value().result.problems)
+    fmt::print("{}\n", scenario::textOf(problem));
+  return std::move(recorded.value().recording);
+}
+
+int runAsked(const ReplayOptions& options, replay::Past& past, replay::Console& console) {
+  for (const std::string& name : options.show) {
+    const Result<std::string> line = console.shown(name);
+    if (!line.ok()) return usageError(line.error());
+    fmt::print("{}\n", line.value());
+  }
+  if (!options.find.empty()) {
+    const Result<std::vector<uint64_t>> found = console.findAll(options.find, options.most);
+    if (!found.ok()) return usageError(found.error());
+    if (options.json) fmt::print("{}\n", nlohmann::json{{"condition", options.find}, {"scans", found.value()}}.dump(2));
+    for (const uint64_t part : found.value()) {
+      if (options.json) break;
+      if (const std::string problem = past.goTo(part); !problem.empty()) return environmentError(problem);
+      fmt::print("{}\n", replay::positionText(past));
+    }
+    if (found.value().empty()) return kWrong;
+  }
+  if (!options.why.empty()) {
+    const std::string words[] = {options.why};
+    const Result<std::string> text = console.why(words, options.json);
+    if (!text.ok()) return usageError(text.error());
+    fmt::print("{}\n", text.value());
+  }
+  if (!options.exported.empty()) {
+    const std::string problem = console.exportTrace(options.exported, options.from.value_or(past.firstPart()),
+                                                    options.to.value_or(past.contents().parts), options.watch);
+    if (!problem.empty()) return usageError(problem);
+    fmt::print("wrote {}\n", options.exported);
+  }
+  return kOk;
+}
+
+int runReplay(const ReplayOptions& options) {
+  int status = kOk;
+  const std::optional<replay::Recording> recording = openRecording(options, status);
+  if (!recording) return status;
+  Result<std::unique_ptr<replay::Past>> past = replay::Past::open(*recording, {});
+  if (!past.ok()) return environmentError(fmt::format("{}: {}", options.file, past.error()));
+  const uint64_t first = options.at.value_or(past.value()->contents().parts);
+  if (const std::string problem = past.value()->goTo(first); !problem.empty()) return usageError("--at: " + problem);
+  replay::Console console(*past.value(), [](const std::string& line) { fmt::print("{}\n", line); });
+  const bool asked =
+      !options.show.empty() || !options.find.empty() || !options.why.empty() || !options.exported.empty();
+  if (asked) return runAsked(options, *past.value(), console);
+  catchSignals();
+  return scenario::runPrompt(console, gReplaySignal, [] {}) ? int{kOk} : int{kWrong};
+}
+
+} // namespace
+
+void addReplay(CommandLine& app, int& status) {
+  Command command =
+      app.add("replay", "Go through the past of a program, forwards and backwards: a scenario, as it ran");
+  auto options = std::make_shared<ReplayOptions>();
+  command.option("RECORDING", options->file, "A scenario, which is run and recorded").required();
+  command.option("--at", options->at, "Begin at the end of this scan; default: the last one, or where it failed");
+  command.option("--show", options->show, "Print the values of these names there").oneValue();
+  command.option("--find", options->find, "Print the scans after which this condition begins to hold");
+  command.option("--most", options->most, "At most so many scans are found").showDefault();
+  command.option("--why", options->why, "NAME or NAME@SCAN: print the chain from the value back to what it came from");
+  command.option("--export", options->exported, "Write values of each scan to FILE.vcd or FILE.csv");
+  command.option("--from", options->from, "First scan of --export");
+  command.option("--to", options->to, "Last scan of --export");
+  command.option("--watch", options->watch, "Names for --export; default: all that the rungs use").oneValue();
+  command.flag("--json", options->json, "JSON from --find and --why");
+  command.onRun([options, &status] { status = runReplay(*options); });
+}
+
+} // namespace rung::rungc

@@ -3,6 +3,7 @@ import json
 import re
 import subprocess
 import sys
+import threading
 import urllib.request
 from pathlib import Path
 
@@ -18,12 +19,17 @@ class Live:
 
     def __init__(self, rungc, *words, cwd=ROOT):
         self.process = subprocess.Popen([rungc, "run", *map(str, words), "--web"], cwd=cwd, stdout=subprocess.PIPE,
-                                        stderr=subprocess.PIPE, text=True)
-        self.link = self.process.stdout.readline().strip()
-        found = LINK.match(self.link)
-        if found is None:
-            self.process.kill()
-            raise AssertionError(f"no link: {self.link!r} {self.process.communicate()[1]!r}")
+                                        stderr=subprocess.STDOUT, text=True)
+        printed = []
+        found = None
+        while found is None:
+            line = self.process.stdout.readline()
+            if not line:
+                raise AssertionError(f"no link: {''.join(printed)[-2000:]}")
+            printed.append(line)
+            found = LINK.match(line)
+        threading.Thread(target=self.process.stdout.read, daemon=True).start()  # messages of the program
+        self.link = found.group()
         self.address, self.token = found.groups()
         self.cookie = ""
 
@@ -55,4 +61,4 @@ class Live:
 
     def close(self):
         self.process.terminate()
-        self.process.communicate(timeout=patience())
+        self.process.wait(timeout=patience())

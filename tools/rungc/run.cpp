@@ -42,7 +42,7 @@ struct RunOptions {
   std::string trace;
   bool prompt = false;
   bool web = false;
-  std::string listen = "127.0.0.1:0";
+  std::string listen = kDefaultListen;
   bool realtime = false;
   runtime::RealTimeOptions thread; // for a real-time run
   bool debugger = false;
@@ -77,10 +77,11 @@ void catchSignals() {
 struct Program {
   std::optional<compiler::Compiled> compiled; // nothing for a shared object
   std::unique_ptr<runtime::Engine> engine;    // destroyed before `compiled`
-  WebFlow flow;                               // what the engine shows the page
+  std::unique_ptr<replay::FlowEngine> flow;   // in place of `engine`, for the page
   const runtime::SoEngine* object = nullptr;  // the same engine, if it is a shared object
   std::optional<compiler::Compiled> carried;  // of a shared object, its embedded IR, loaded on first use
 
+  runtime::Engine& runs() const { return flow ? flow->engine() : *engine; }
   const ir::Uses* uses() const { return compiled ? compiled->uses.get() : nullptr; }
   Result<const compiler::Compiled*> wanted();
 };
@@ -123,7 +124,7 @@ public:
       : options_(options), session_("", options.realtime ? sim::Clock::Machine : sim::Clock::Virtual),
         recording_(startOf(options, program.compiled.has_value())) {
     programs_.push_back(std::move(program));
-    session_.addEngine(*first().engine);
+    session_.addEngine(first().runs());
     session_.setCompiled([this] { return first().wanted(); });
     session_.setMakeProgram([this](const scenario::Statement& s) { return next(s); });
   }
@@ -284,7 +285,8 @@ private:
   int showPage() {
     session_.setUnattended();
     session_.setInterrupt({});
-    return serveSession(options_.source, options_.listen, *first().compiled, session_, *explainer_, first().flow,
+    const std::string title = options_.source.project ? options_.source.project->name : "";
+    return serveSession(title, options_.listen, *first().compiled, session_, *explainer_, *first().flow,
                         [] { return gSignal != 0; });
   }
 
@@ -313,7 +315,7 @@ private:
     if (!program) return failure("the running program has not changed");
     programs_.push_back(std::move(*program));
     Program& next = programs_.back();
-    return scenario::NextProgram{{next.engine.get()}, next.uses(), [&next] { return next.wanted(); }};
+    return scenario::NextProgram{{&next.runs()}, next.uses(), [&next] { return next.wanted(); }};
   }
 
   // Checks the dialect that the sources declare.
@@ -340,13 +342,13 @@ private:
     progress_.clear();
     if (!options_.source.quiet)
       fmt::print(out_, "{} scan{}, {} on the program's clock, engine {}\n", session_.scans(),
-                 session_.scans() == 1 ? "" : "s", longText(session_.nowUs()), first().engine->name());
+                 session_.scans() == 1 ? "" : "s", longText(session_.nowUs()), first().runs().name());
     if (!session_.unexpectedFault().empty()) {
       warn_(scenario::faultLine(session_.instance()));
       status = kWrong;
     }
     for (const Program& program : programs_)
-      if (const std::string trouble = compiler::codeTrouble(*program.engine); !trouble.empty()) warn_(trouble);
+      if (const std::string trouble = compiler::codeTrouble(program.runs()); !trouble.empty()) warn_(trouble);
     // Takes precedence over other failures: the run may have been right.
     if (retained_) status = finishRetained(status);
     if (trace_)
@@ -396,10 +398,7 @@ std::optional<Program> openSharedObject(const RunOptions& options, const std::st
 }
 
 std::optional<Program> compileProgram(const RunOptions& options, const SourceOptions& source, int& status) {
-  const std::string name = !options.engine.empty() ? options.engine
-                           : options.web           ? "interp"
-                           : options.debugger      ? "jit"
-                                                   : "tiered";
+  const std::string name = !options.engine.empty() ? options.engine : options.debugger ? "jit" : "tiered";
   const auto kind = compiler::engineFromName(name);
   if (!kind) {
     status = usageError(fmt::format("unknown engine '{}'; the engines are interp, cpp, llvm, jit and tiered", name));
@@ -418,7 +417,10 @@ std::optional<Program> compileProgram(const RunOptions& options, const SourceOpt
   engineOptions.optimise = options.level != "0";
   engineOptions.cacheFolder = options.cache;
   engineOptions.virtualClock = !options.realtime;
-  if (options.web) engineOptions.observer = program.flow.observer();
+  if (options.web) {
+    program.flow = std::make_unique<replay::FlowEngine>(*program.compiled);
+    return program;
+  }
   Result<std::unique_ptr<runtime::Engine>> engine = [&] {
     const scenario::Working working("compiling to machine code");
     return compiler::makeEngine(*kind, *program.compiled, engineOptions);
@@ -436,6 +438,15 @@ std::optional<Program> makeProgram(const RunOptions& options, const SourceOption
                                       : compileProgram(options, source, status);
 }
 
+// "" or why there can be no page.
+std::string webProblem(const RunOptions& options) {
+  if (isSharedObject(options.source.files))
+    return "--web shows the rungs of sources, and this is a shared object: run its sources";
+  if (!options.engine.empty() && options.engine != "interp")
+    return fmt::format("--web runs on the interpreter, not on '{}'", options.engine);
+  return listenProblem(options.listen);
+}
+
 int runProgram(RunOptions& options) {
   const bool piped = std::ranges::find(options.source.files, "-") != options.source.files.end();
   if (piped && options.prompt && isatty(STDIN_FILENO) == 0)
@@ -449,9 +460,7 @@ int runProgram(RunOptions& options) {
     if (const std::string wrong = scenario::traceFileProblem(options.trace); !wrong.empty())
       return usageError("--trace: " + wrong);
   if (options.web)
-    if (const std::string wrong = webProblem(options.listen, isSharedObject(options.source.files), options.engine);
-        !wrong.empty())
-      return usageError(wrong);
+    if (const std::string wrong = webProblem(options); !wrong.empty()) return usageError(wrong);
   int status = kOk;
   auto config = configPairs(options.source.config, status);
   if (!config) return status;

@@ -2,11 +2,11 @@
 #include "tools/rungc/web.h"
 
 #include <fmt/format.h>
-#include <optional>
 
 #include "tools/view/drawn_program.h"
 #include "tools/web/access.h"
 #include "tools/web/page.h"
+#include "tools/web/past_source.h"
 #include "tools/web/server.h"
 #include "tools/web/session_source.h"
 #include "tools/web/shown_program.h"
@@ -14,19 +14,8 @@
 namespace rung::rungc {
 namespace {
 
-class Delivery final : public ir::RungObserver {
-public:
-  explicit Delivery(std::shared_ptr<web::FlowObserver*> target) : target_(std::move(target)) {}
-  void rungRan(uint32_t number, std::span<const uint64_t> values) override {
-    if (*target_ != nullptr) (*target_)->rungRan(number, values);
-  }
-
-private:
-  std::shared_ptr<web::FlowObserver*> target_;
-};
-
 // The program as the page shows it, read again from its files; fails if they have been changed.
-Result<web::ShownProgram> shownProgram(const SourceOptions& options, const compiler::Compiled& compiled) {
+Result<web::ShownProgram> shownProgram(const std::string& title, const compiler::Compiled& compiled) {
   SourceManager sources;
   const Result<std::vector<FileId>> files =
       compiler::addFiles(sources, compiled.module->files, compiled.options.config);
@@ -34,13 +23,12 @@ Result<web::ShownProgram> shownProgram(const SourceOptions& options, const compi
   frontend::CompileOptions compile = compiled.options;
   compile.configPlaces.clear(); // they are positions in the sources of the first compilation
   Diagnostics diagnostics;
-  const std::string title = options.project ? options.project->name : "";
   const std::string changed = fmt::format("{} was changed while it was compiled", compiled.module->files.front());
   if (!view::hasDrawing(*compiled.dialect)) {
     auto listing = view::listedProgram(sources, files.value(), *compiled.dialect, compile, diagnostics);
     if (!listing) return failure(changed);
     if (!title.empty()) listing->title = title;
-    return web::ShownProgram(std::move(*listing), *compiled.module, compiled.marks);
+    return web::ShownProgram(std::move(*listing), *compiled.shape, compiled.marks);
   }
   auto drawing = view::drawnProgram(sources, files.value(), *compiled.dialect, compile, diagnostics);
   if (!drawing) return failure(changed);
@@ -48,42 +36,43 @@ Result<web::ShownProgram> shownProgram(const SourceOptions& options, const compi
   return web::ShownProgram(std::move(*drawing));
 }
 
+int serve(const std::string& listen, const web::ShownProgram& program, web::PacedSource& source,
+          const std::function<bool()>& ended) {
+  web::Page page(program, source);
+  Result<std::unique_ptr<web::Server>> server =
+      web::Server::start(*web::parseListen(listen), [&page](const web::Request& request, web::Server& by) {
+        return page.respond(request, [&by] { return by.newLink(); });
+      });
+  if (!server.ok()) return environmentError(server.error());
+  fmt::print("{}\n", server.value()->newLink());
+  std::fflush(stdout);
+  source.run(ended);
+  return kOk;
+}
+
 } // namespace
 
-std::function<std::unique_ptr<ir::RungObserver>(const compiler::Compiled&)> WebFlow::observer() {
-  return [target = target_](const compiler::Compiled&) { return std::make_unique<Delivery>(target); };
+std::string listenProblem(const std::string& listen) {
+  return web::parseListen(listen)
+             ? ""
+             : fmt::format("--listen {}: expected a port, or ADDRESS:PORT such as 192.168.0.5:8080", listen);
 }
 
-std::string webProblem(const std::string& listen, bool sharedObject, const std::string& engine) {
-  if (!web::parseListen(listen))
-    return fmt::format("--listen {}: expected a port, or ADDRESS:PORT such as 192.168.0.5:8080", listen);
-  if (sharedObject) return "--web shows the rungs of sources, and this is a shared object: run its sources";
-  if (!engine.empty() && engine != "interp") return fmt::format("--web runs on the interpreter, not on '{}'", engine);
-  return {};
-}
-
-int serveSession(const SourceOptions& source, const std::string& listen, const compiler::Compiled& compiled,
-                 scenario::Session& session, const scenario::Explainer& explainer, WebFlow& flow,
+int serveSession(const std::string& title, const std::string& listen, const compiler::Compiled& compiled,
+                 scenario::Session& session, const scenario::Explainer& explainer, replay::FlowEngine& engine,
                  const std::function<bool()>& ended) {
-  const Result<web::ShownProgram> program = shownProgram(source, compiled);
+  const Result<web::ShownProgram> program = shownProgram(title, compiled);
   if (!program.ok()) return environmentError(program.error());
-  web::FlowObserver observer(*compiled.module, compiled.marks, program.value());
-  flow.deliver(&observer);
-  web::SessionSource shown(session, explainer, program.value(), observer);
-  web::Page page(program.value(), shown);
-  web::Server* server = nullptr;
-  Result<std::unique_ptr<web::Server>> started =
-      web::Server::start(*web::parseListen(listen), [&](const web::Request& request) {
-        return page.respond(request, [&] { return server->newLink(); });
-      });
-  if (!started.ok()) return environmentError(started.error());
-  server = started.value().get();
-  fmt::print("{}\n", server->newLink());
-  std::fflush(stdout);
-  shown.run(ended);
-  started.value().reset();
-  flow.deliver(nullptr);
-  return kOk;
+  web::SessionSource source(session, explainer, program.value(), engine);
+  return serve(listen, program.value(), source, ended);
+}
+
+int servePast(const std::string& title, const std::string& listen, replay::Past& past,
+              const std::function<bool()>& ended) {
+  const Result<web::ShownProgram> program = shownProgram(title, past.compiled());
+  if (!program.ok()) return environmentError(program.error());
+  web::PastSource source(past, program.value());
+  return serve(listen, program.value(), source, ended);
 }
 
 } // namespace rung::rungc

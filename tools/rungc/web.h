@@ -1,36 +1,29 @@
-// The live page of a program that rungc runs.
+// The live page of a program that rungc runs, or whose recording it plays.
 #pragma once
 #include <functional>
-#include <memory>
 #include <string>
 
 #include "compiler/compile.h"
-#include "compiler/engines.h"
+#include "tools/replay/past.h"
 #include "tools/rungc/commands.h"
 #include "tools/scenario/explain.h"
 #include "tools/scenario/session.h"
-#include "tools/web/flow_observer.h"
 
 namespace rung::rungc {
 
-// What the engine of a program shows the page. The observer is made with the engine, the page's program afterwards.
-class WebFlow {
-public:
-  // Makes the engine's observer.
-  std::function<std::unique_ptr<ir::RungObserver>(const compiler::Compiled&)> observer();
-  // From now on the observer delivers to `flow`, which must outlive the engine's last scan.
-  void deliver(web::FlowObserver* flow) { *target_ = flow; }
+inline constexpr const char* kDefaultListen = "127.0.0.1:0";
 
-private:
-  std::shared_ptr<web::FlowObserver*> target_ = std::make_shared<web::FlowObserver*>(nullptr);
-};
+// "" or why no page can be served there.
+std::string listenProblem(const std::string& listen);
 
-// "" or why there can be no page: an address that is none, a program that the interpreter does not run.
-std::string webProblem(const std::string& listen, bool sharedObject, const std::string& engine);
+// Each of them prints a link, serves the page until `ended` returns true, and returns the exit status. `title`: of the
+// page; "": the names of the files.
 
-// Prints the link and runs the session until `ended` returns true. Returns the exit status.
-int serveSession(const SourceOptions& source, const std::string& listen, const compiler::Compiled& compiled,
-                 scenario::Session& session, const scenario::Explainer& explainer, WebFlow& flow,
+// The session has started; its only engine is that of `engine`.
+int serveSession(const std::string& title, const std::string& listen, const compiler::Compiled& compiled,
+                 scenario::Session& session, const scenario::Explainer& explainer, replay::FlowEngine& engine,
                  const std::function<bool()>& ended);
+int servePast(const std::string& title, const std::string& listen, replay::Past& past,
+              const std::function<bool()>& ended);
 
 } // namespace rung::rungc

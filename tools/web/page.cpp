@@ -94,6 +94,7 @@ Response Page::index(const Request& request) const {
                  {"heights", std::move(heights)},
                  {"numbers", std::move(numbers)},
                  {"tree", std::move(tree)},
+                 {"live", source_.isLive()},
                  {"mayWrite", source_.mayWrite()}});
 }
 
@@ -172,6 +173,16 @@ Response Page::events(const Request& request) {
   return jsonOf(all);
 }
 
+// Steps are [depth, text, scan, row or null, causes].
+Response Page::why(const Request& request) {
+  const Result<Why> why = source_.why(queryValue(request.query, "name"));
+  if (!why.ok()) return textOf(409, why.error());
+  json steps = json::array();
+  for (const WhyStep& step : why.value().steps)
+    steps.push_back({step.depth, step.text, step.scan, step.row ? json(*step.row) : json(), step.causes});
+  return jsonOf({{"why", why.value().text}, {"steps", std::move(steps)}});
+}
+
 Response Page::order(const Request& request) {
   const json asked = json::parse(request.body, nullptr, false);
   if (!asked.is_object()) return textOf(400, "an order is a JSON object");
@@ -209,8 +220,7 @@ Response Page::respond(const Request& request, const std::function<std::string()
   if (request.path == "/api/picture") return picture(request);
   if (request.path == "/api/events") return events(request);
   if (request.path == "/api/why") {
-    const Result<std::string> why = source_.why(queryValue(request.query, "name"));
-    return why.ok() ? jsonOf({{"why", why.value()}}) : textOf(409, why.error());
+    return why(request);
   }
   if (request.path == "/style.css") return {200, "text/css", styleSheet()};
   const std::string_view name = request.path == "/" ? "index.html" : std::string_view(request.path).substr(1);

@@ -23,6 +23,7 @@ private:
   Response names() const;
   Response picture(const Request& request);
   Response events(const Request& request);
+  Response why(const Request& request);
   Response order(const Request& request);
 
   const ShownProgram& program_;

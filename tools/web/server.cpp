@@ -12,6 +12,7 @@ namespace rung::web {
 
 struct Server::State {
   Handler handler;
+  Server* server = nullptr;
   std::optional<Access> access; // set once the port is known
   std::atomic<bool> ready = false;
   mg_context* context = nullptr;
@@ -73,8 +74,8 @@ std::optional<std::string> bodyOf(mg_connection* connection) {
   return body;
 }
 
-Response handled(const Handler& handler, const Request& request) try {
-  return handler(request);
+Response handled(Server::State& state, const Request& request) try {
+  return state.handler(request, *state.server);
 } catch (const std::exception& error) {
   return {500, "text/plain", fmt::format("{}\n", error.what())};
 }
@@ -106,7 +107,7 @@ Answer respond(Server::State& state, mg_connection* connection) {
       return {{413, kText, fmt::format("a request has at most {} bytes, and says how many\n", Server::kMostBody)}, {}};
     request.body = std::move(*body);
   }
-  return {handled(state.handler, request), {}};
+  return {handled(state, request), {}};
 }
 
 // Every request comes here first, whatever it asks for.
@@ -129,6 +130,7 @@ Result<std::unique_ptr<Server>> Server::start(const Listen& listen, Handler hand
   server->state_ = std::make_unique<State>();
   State& state = *server->state_;
   state.handler = std::move(handler);
+  state.server = server.get();
   const bool ipv6 = listen.host.find(':') != std::string::npos;
   const std::string host = listen.host == "localhost" ? "127.0.0.1" : listen.host;
   const std::string port = ipv6 ? fmt::format("[{}]:{}", host, listen.port) : fmt::format("{}:{}", host, listen.port);

@@ -26,8 +26,10 @@ struct Response {
   std::string body;
 };
 
+class Server;
+
 // Called by several threads at a time, for requests that may be answered. An exception becomes an answer of status 500.
-using Handler = std::function<Response(const Request& request)>;
+using Handler = std::function<Response(const Request& request, Server& by)>;
 
 class Server {
 public:

@@ -1,52 +1,27 @@
 // A program on the interpreter in this process, with its simulated machine, as what the page shows.
 #pragma once
-#include <condition_variable>
 #include <deque>
-#include <functional>
-#include <future>
-#include <map>
-#include <mutex>
 #include <set>
 #include <string>
 #include <vector>
 
-#include "ir/core/memory_use.h"
+#include "tools/replay/flow.h"
 #include "tools/scenario/explain.h"
 #include "tools/scenario/session.h"
-#include "tools/web/flow_observer.h"
-#include "tools/web/shown_program.h"
-#include "tools/web/source.h"
+#include "tools/web/paced_source.h"
 
 namespace rung::web {
 
-// The thread that calls run() runs the program; all functions of Source hand over to it.
-class SessionSource final : public Source {
+class SessionSource final : public PacedSource {
 public:
-  // All arguments must outlive it. The session has started; its first engine is observed by `flow`.
+  // All arguments must outlive it. The session has started; its only engine is that of `engine`.
   SessionSource(scenario::Session& session, const scenario::Explainer& explainer, const ShownProgram& program,
-                FlowObserver& flow);
+                replay::FlowEngine& engine);
 
-  // Runs at the pace of the program's clock until `ended`, which is asked often, returns true.
-  void run(const std::function<bool()>& ended);
-
-  std::shared_ptr<const Picture> picture(const std::string& page, const std::vector<std::string>& names, uint64_t after,
-                                         std::chrono::milliseconds wait) override;
-  Result<std::string> execute(const Order& order) override;
-  std::vector<Event> events(uint64_t after) override;
-  Result<std::string> why(const std::string& name) override;
+  bool isLive() const override { return true; }
   std::string mayWrite() const override { return {}; }
 
 private:
-  using Clock = std::chrono::steady_clock;
-  struct Follower {
-    std::vector<std::string> names;
-    Clock::time_point asked;
-  };
-  // Something for the thread of run() to do.
-  struct Task {
-    std::function<Result<std::string>()> act;
-    std::promise<Result<std::string>> done;
-  };
   // A snapshot of the session.
   struct Moment {
     uint64_t scan = 0;
@@ -60,45 +35,33 @@ private:
     std::string line;
   };
 
-  Result<std::string> hand(std::function<Result<std::string>()> act);
-  bool takeTasks(std::unique_lock<std::mutex>& lock);
-  Result<std::string> carryOut(const Order& order);
+  bool nextScan() override;
+  int64_t nowUs() const override { return session_.nowUs(); }
+  Result<std::string> carryOut(const Order& order) override;
+  Result<Why> explain(const std::string& name) override;
+  void fill(Picture& picture, const std::set<std::string>& names) override;
+
   Result<std::string> write(const std::string& line, const char* kind);
   Result<std::string> seek(uint64_t scan);
+  Result<std::string> step(int64_t scans);
   std::string statement(const std::string& line);
   void oneScan();
   void repeat();
   void keepMoment();
-  void log(std::string kind, std::string text);
-  void compareMessages();
-  void publish(const std::set<std::string>& names);
-  std::set<std::string> followed();
+  void logHere(std::string kind, std::string text) { log(std::move(kind), std::move(text), scan_, nowUs()); }
   std::vector<ForcedCell> forces();
 
-  // Of the thread of run().
   scenario::Session& session_;
   const scenario::Explainer& explainer_;
-  FlowObserver& flow_;
-  std::vector<std::pair<ir::BitRange, uint32_t>> places_; // of the names in the program's lists, NameRow::id
-  uint64_t scan_ = 0;                                     // the one that is shown
-  uint64_t last_ = 0;                                     // the newest
-  std::deque<Moment> moments_;                            // oldest first
-  std::vector<Done> done_;                                // oldest first
-  size_t nextDone_ = 0;                                   // of done_: the first that has not been executed at this scan
-  bool running_ = true;
+  replay::FlowEngine& engine_;
+  ElementStates states_;
+  const NamePlaces places_;
+  uint64_t scan_ = 0;          // the one that is shown
+  uint64_t last_ = 0;          // the newest
+  std::deque<Moment> moments_; // oldest first
+  std::vector<Done> done_;     // oldest first
+  size_t nextDone_ = 0;        // of done_: the first that has not been executed at this scan
   bool faulted_ = false;
-  std::vector<nc::ShownMessage> messages_;
-
-  std::mutex mutex_;             // protects what follows
-  std::condition_variable news_; // for pages: a picture
-  std::condition_variable work_; // for run(): tasks, a page that looks at something else
-  std::shared_ptr<const Picture> picture_;
-  std::map<std::string, Follower> followers_; // by page
-  bool stale_ = true;                         // a page follows what the picture does not have
-  std::deque<Task> tasks_;
-  std::deque<Event> events_;
-  uint64_t lastEvent_ = 0;
-  bool ended_ = false;
 };
 
 } // namespace rung::web

@@ -278,6 +278,7 @@ bool passes(const Cell& cell, bool before, uint8_t state) {
 
 std::string ShownProgram::flow(uint32_t row, std::span<const uint8_t> states) const {
   const Row& one = rows_[row];
+  if (states.empty()) return {};
   const std::span<const uint8_t> own = states.subspan(one.firstElement, one.elements);
   if (std::ranges::none_of(own, [](uint8_t state) { return (state & kEvaluated) != 0; })) return {};
   std::string text(own.size(), '-');

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -57,6 +58,20 @@ struct Event {
   std::string text;
 };
 
+// A step of the chain that leads to a value.
+struct WhyStep {
+  uint32_t depth = 0;
+  std::string text;
+  uint64_t scan = 0;               // since when
+  std::optional<uint32_t> row;     // of the rung that wrote
+  std::vector<std::string> causes; // names that decided in it
+};
+
+struct Why {
+  std::string text;
+  std::vector<WhyStep> steps; // empty: the text is all
+};
+
 // Any thread may call these.
 class Source {
 public:
@@ -71,7 +86,9 @@ public:
   static constexpr size_t kMostEvents = 1000;
   virtual std::vector<Event> events(uint64_t after) = 0;
   // Why the value of a name is what it is, at the picture that is shown.
-  virtual Result<std::string> why(const std::string& name) = 0;
+  virtual Result<Why> why(const std::string& name) = 0;
+  // Whether there is a newest scan that becomes older: false for what has ended.
+  virtual bool isLive() const = 0;
   // Whether pages may write: "" or why not.
   virtual std::string mayWrite() const = 0;
 };

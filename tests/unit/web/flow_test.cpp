@@ -4,22 +4,22 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <optional>
 #include <set>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "compiler/compile.h"
-#include "compiler/engines.h"
-#include "rtlib/load/ref.h"
+#include "sim/simulated_nc.h"
+#include "tools/replay/past.h"
+#include "tools/replay/record_run.h"
 #include "tools/report/place_names.h"
 #include "tools/scenario/in_project.h"
 #include "tools/scenario/runner.h"
 #include "tools/view/drawn_program.h"
-#include "tools/web/flow_observer.h"
+#include "tools/web/element_states.h"
+#include "tools/web/paced_source.h"
 #include "tools/web/shown_program.h"
 
 namespace rung::web {
@@ -56,122 +56,6 @@ bool hasPower(const view::Sheet& sheet, const std::vector<uint8_t>& states, uint
   return false;
 }
 
-// One program while scenarios drive it.
-class Truth final : public ir::RungObserver {
-public:
-  Truth(const compiler::Compiled& compiled, const view::Program& drawing, Counts& counts)
-      : drawing_(drawing), shown_(drawing), flow_(*compiled.module, compiled.marks, shown_), counts_(counts),
-        uses_(*compiled.uses) {
-    for (const ir::Routine& routine : compiled.module->routines)
-      for (const ir::Rung& rung : routine.rungs) numbers_.push_back(rung.number);
-  }
-
-  void start(scenario::Session& session) {
-    session_ = &session;
-    const rung_program& program = session.instance().program();
-    places_.assign(shown_.elementCount(), std::nullopt);
-    for (uint32_t row = 0; row < shown_.rows().size(); ++row) {
-      const Row& one = shown_.rows()[row];
-      if (one.kind != Row::Kind::Rung) continue;
-      const std::vector<Cell>& cells = drawing_.figures[one.index].sheet.cells;
-      for (uint32_t i = 0; i < cells.size(); ++i) {
-        if (cells[i].kind != Cell::Kind::Contact || (!cells[i].mark.empty() && cells[i].mark != "/")) continue;
-        if (const auto place = session.nc().readPlace(program, cells[i].operand.name))
-          places_[one.firstElement + i] = report::bitsOf(*place);
-      }
-    }
-    for (const ShownProgram::Contact& contact : shown_.contacts())
-      if (const auto place = session.nc().readPlace(program, contact.name); place && !flow_.shows(contact.element))
-        flow_.setConstant(contact.element, (session.instance().read(*place) != 0) != contact.negated);
-  }
-
-  void touched(uint32_t, const ir::BitRange& place, bool writes) override {
-    if (writes || place.count != 1 || session_ == nullptr) return;
-    const runtime::Ref bit = runtime::bitRef(place.space.index, 0, place.first);
-    reads_.try_emplace(knownAs({place.space.index, place.first}, place), session_->instance().read(bit) != 0);
-  }
-
-  void rungRan(uint32_t number, std::span<const uint64_t> values) override {
-    flow_.rungRan(number, values);
-    const auto row = shown_.rowOf(numbers_[number]);
-    if (row && !values.empty() && session_ != nullptr && counts_.scans < kMostScans) compare(shown_.rows()[*row]);
-    reads_.clear();
-  }
-
-  void scanned() {
-    if (counts_.scans++ >= kMostScans) return;
-    const std::vector<uint8_t> states = flow_.states();
-    for (uint32_t row = 0; row < shown_.rows().size(); ++row) {
-      const std::string text = shown_.flow(row, states);
-      if (!text.empty()) compareCoils(shown_.rows()[row], text, states);
-    }
-    flow_.beginScan();
-  }
-
-private:
-  using Bit = std::pair<uint32_t, uint32_t>; // space and bit
-
-  // For a latch of the compiler, the bit that was copied to it.
-  Bit knownAs(Bit bit, const ir::BitRange& place) {
-    const auto [found, isNew] = known_.try_emplace(bit, bit);
-    if (isNew)
-      if (const auto known = report::knownPlace(session_->instance().program(), uses_, place))
-        found->second = {known->space.index, known->first};
-    return found->second;
-  }
-
-  // The contacts of a rung that has just run.
-  void compare(const Row& row) {
-    const std::vector<uint8_t> states = flow_.states();
-    const std::vector<Cell>& cells = drawing_.figures[row.index].sheet.cells;
-    for (uint32_t i = 0; i < cells.size(); ++i) {
-      const uint8_t state = states[row.firstElement + i];
-      if (cells[i].kind != Cell::Kind::Contact || (state & kEvaluated) == 0) continue;
-      const auto& place = places_[row.firstElement + i];
-      const auto read = place ? reads_.find({place->space.index, place->first}) : reads_.end();
-      if (read == reads_.end()) {
-        ++counts_.unread;
-        continue;
-      }
-      ++counts_.contacts;
-      ASSERT_EQ((state & kOn) != 0, read->second != (cells[i].mark == "/"))
-          << "rung " << row.number << ", contact " << cells[i].operand.name;
-    }
-  }
-
-  void compareCoils(const Row& row, const std::string& text, const std::vector<uint8_t>& all) {
-    const view::Sheet& sheet = drawing_.figures[row.index].sheet;
-    const std::vector<uint8_t> states(all.begin() + row.firstElement, all.begin() + row.firstElement + row.elements);
-    for (uint32_t i = 0; i < sheet.cells.size(); ++i) {
-      if (sheet.cells[i].kind != Cell::Kind::Coil || text[i] == '-') continue;
-      ++counts_.coils;
-      const bool power = hasPower(sheet, states, i);
-      ASSERT_EQ(((text[i] - '0') & 1) != 0, power) << "rung " << row.number << ", coil " << sheet.cells[i].operand.name;
-      ASSERT_EQ(((text[i] - '0') & 2) != 0, power) << "rung " << row.number << ", coil " << sheet.cells[i].operand.name;
-    }
-  }
-
-  const view::Program& drawing_;
-  const ShownProgram shown_;
-  FlowObserver flow_;
-  Counts& counts_;
-  std::vector<uint32_t> numbers_;                   // of the source, by rung over all routines
-  std::vector<std::optional<ir::BitRange>> places_; // by element
-  const ir::Uses& uses_;
-  std::map<Bit, Bit> known_;
-  std::map<Bit, bool> reads_; // of the rung that runs
-  scenario::Session* session_ = nullptr;
-};
-
-class Scans final : public scenario::Observer {
-public:
-  explicit Scans(Truth& truth) : truth_(truth) {}
-  void scanned(const scenario::Session&) override { truth_.scanned(); }
-
-private:
-  Truth& truth_;
-};
-
 view::Program drawingOf(const compiler::Compiled& compiled) {
   SourceManager sources;
   const auto files = compiler::addFiles(sources, compiled.module->files, compiled.options.config);
@@ -184,40 +68,110 @@ view::Program drawingOf(const compiler::Compiled& compiled) {
   return std::move(*drawing);
 }
 
-class Forward final : public ir::RungObserver {
+// The past of one scenario.
+class Truth {
 public:
-  explicit Forward(Truth& truth) : truth_(truth) {}
-  void touched(uint32_t number, const ir::BitRange& place, bool writes) override {
-    truth_.touched(number, place, writes);
+  Truth(replay::Past& past, Counts& counts)
+      : past_(past), nc_(sim::makeSimulatedNc(past.instance().program().dialect)), drawing_(drawingOf(past.compiled())),
+        shown_(drawing_), states_(past.flowEngine(), shown_), names_(shown_, past.instance(), *nc_, states_),
+        counts_(counts), places_(shown_.elementCount()) {
+    for (uint32_t row = 0; row < shown_.rows().size(); ++row) {
+      const Row& one = shown_.rows()[row];
+      if (one.kind != Row::Kind::Rung) continue;
+      const std::vector<Cell>& cells = drawing_.figures[one.index].sheet.cells;
+      for (uint32_t i = 0; i < cells.size(); ++i) {
+        if (cells[i].kind != Cell::Kind::Contact || (!cells[i].mark.empty() && cells[i].mark != "/")) continue;
+        if (const auto place = nc_->readPlace(past.instance().program(), cells[i].operand.name))
+          places_[one.firstElement + i] = report::bitsOf(*place);
+      }
+    }
   }
-  void rungRan(uint32_t number, std::span<const uint64_t> values) override { truth_.rungRan(number, values); }
+
+  // The part that has led to the present position.
+  void compare() {
+    const replay::Flow* flow = past_.flow();
+    if (flow == nullptr) return;
+    ++counts_.scans;
+    const std::vector<uint8_t> states = states_.of(*flow);
+    std::vector<const replay::RungFlow*> last(past_.flowEngine().elements().rungs().size(), nullptr);
+    for (const replay::RungFlow& run : flow->runs())
+      if (const uint32_t rung = past_.flowEngine().elements().rungOf(run.lowered); rung != replay::kNone)
+        last[rung] = &run;
+    for (uint32_t rung = 0; rung < last.size(); ++rung) {
+      const replay::SourceRung& source = past_.flowEngine().elements().rungs()[rung];
+      const auto row = shown_.rowOf(source.number);
+      if (last[rung] == nullptr || !row) continue;
+      if (source.lowered.size() == 1) compareContacts(shown_.rows()[*row], states, flow->accesses(*last[rung]));
+      compareCoils(shown_.rows()[*row], shown_.flow(*row, states), states);
+      if (testing::Test::HasFatalFailure()) return;
+    }
+  }
 
 private:
-  Truth& truth_;
+  // The bit of the place when the run read it.
+  std::optional<bool> readOf(std::span<const ir::Access> accesses, const ir::BitRange& place) {
+    for (const ir::Access& access : accesses) {
+      const auto known = access.writes ? std::nullopt : past_.flowEngine().knownPlace(access);
+      if (known && known->space == place.space && known->first == place.first && known->count == place.count)
+        return access.value != 0;
+    }
+    return std::nullopt;
+  }
+
+  void compareContacts(const Row& row, const std::vector<uint8_t>& states, std::span<const ir::Access> accesses) {
+    const std::vector<Cell>& cells = drawing_.figures[row.index].sheet.cells;
+    for (uint32_t i = 0; i < cells.size(); ++i) {
+      const uint8_t state = states[row.firstElement + i];
+      if (cells[i].kind != Cell::Kind::Contact || (state & kEvaluated) == 0) continue;
+      const auto& place = places_[row.firstElement + i];
+      const auto read = place ? readOf(accesses, *place) : std::nullopt;
+      if (!read) {
+        ++counts_.unread;
+        continue;
+      }
+      ++counts_.contacts;
+      ASSERT_EQ((state & kOn) != 0, *read != (cells[i].mark == "/"))
+          << "rung " << row.number << ", contact " << cells[i].operand.name;
+    }
+  }
+
+  void compareCoils(const Row& row, const std::string& text, const std::vector<uint8_t>& all) {
+    if (text.empty()) return;
+    const view::Sheet& sheet = drawing_.figures[row.index].sheet;
+    const std::vector<uint8_t> states(all.begin() + row.firstElement, all.begin() + row.firstElement + row.elements);
+    for (uint32_t i = 0; i < sheet.cells.size(); ++i) {
+      if (sheet.cells[i].kind != Cell::Kind::Coil || text[i] == '-') continue;
+      ++counts_.coils;
+      const bool power = hasPower(sheet, states, i);
+      ASSERT_EQ(((text[i] - '0') & 1) != 0, power) << "rung " << row.number << ", coil " << sheet.cells[i].operand.name;
+      ASSERT_EQ(((text[i] - '0') & 2) != 0, power) << "rung " << row.number << ", coil " << sheet.cells[i].operand.name;
+    }
+  }
+
+  replay::Past& past_;
+  const std::unique_ptr<sim::SimulatedNc> nc_;
+  const view::Program drawing_;
+  const ShownProgram shown_;
+  ElementStates states_;
+  const NamePlaces names_;
+  Counts& counts_;
+  std::vector<std::optional<ir::BitRange>> places_; // by element
 };
 
 void runScenario(const std::string& path, Counts& counts) {
   auto scenario = scenario::readScenario(path);
   ASSERT_TRUE(scenario.ok());
   scenario::takeProject(scenario.value());
-  std::optional<view::Program> drawing;
-  std::unique_ptr<Truth> truth;
-  std::unique_ptr<Scans> scans;
-  scenario::RunOptions options{.engines = {compiler::EngineKind::Interp}};
-  options.engine.observer = [&](const compiler::Compiled& compiled) {
-    if (truth == nullptr) {
-      drawing = drawingOf(compiled);
-      truth = std::make_unique<Truth>(compiled, *drawing, counts);
-    }
-    return std::make_unique<Forward>(*truth);
-  };
-  options.started = [&](scenario::Session& session, const compiler::Compiled&) {
-    truth->start(session);
-    scans = std::make_unique<Scans>(*truth);
-    session.addObserver(*scans);
-    return std::string();
-  };
-  (void)scenario::run(scenario.value(), options);
+  auto recorded = replay::recordScenario(scenario.value(), {.engines = {compiler::EngineKind::Interp}});
+  ASSERT_TRUE(recorded.ok()) << recorded.error();
+  auto past = replay::Past::open(recorded.value().recording, {.engine = compiler::EngineKind::Interp});
+  ASSERT_TRUE(past.ok()) << past.error();
+  ASSERT_EQ(past.value()->goTo(past.value()->firstPart()), "");
+  Truth truth(*past.value(), counts);
+  while (counts.scans < kMostScans && past.value()->next() && past.value()->programNumber() == 0) {
+    truth.compare();
+    if (testing::Test::HasFatalFailure()) return;
+  }
 }
 
 class FlowOf : public testing::TestWithParam<const char*> {};

@@ -105,7 +105,8 @@ async function start() {
   const pane = new Pane(by('ladder'), by('space'), index, narrow, choose);
   const tree = new Tree(by('tree'), index, goRow);
   const watch = new Watch(by('watch'), names, writer, goRung, 'rung-watch-' + index.title);
-  const detail = new Detail(by('detail'), names, writer, goRung, name => { watch.add(name); tell(`${name} is watched`); });
+  const detail = new Detail(by('detail'), names, writer, {go: goRung, goRow, seek, causes: map => pane.setCauses(map),
+    watch: name => { watch.add(name); tell(`${name} is watched`); }});
   const terminals = new Terminals(by('io'), names, goRung, choose);
   const history = new History(by('log'), seek);
   new Find(by('what'), by('found'), names, index, found => {
@@ -140,7 +141,7 @@ async function start() {
     by('pill').title = next.fault;
     by('scan').textContent = next.scan;
     by('time').textContent = timeText(next.us);
-    by('go').textContent = next.state === 'running' ? 'Pause' : next.scan < next.last ? 'To now' : 'Run';
+    by('go').textContent = next.state === 'running' ? 'Pause' : !index.live ? 'Play' : next.scan < next.last ? 'To now' : 'Run';
     by('back').disabled = next.scan <= next.first;
     const slider = by('slider');
     slider.min = next.first;

@@ -24,6 +24,7 @@ export class Pane {
     this.flows = {};
     this.texts = {};
     this.forcedIds = new Set();
+    this.causes = new Map();
     this.focusRow = -1;
     this.onrange = () => {};
     pane.addEventListener('scroll', () => this.soon(), {passive: true});
@@ -134,6 +135,20 @@ export class Pane {
     if (row === this.focusRow) element.classList.add('now');
     this.paint(row);
     this.markForced(element);
+    this.markCauses(row, element);
+  }
+
+  // The elements that decided, by row, as *why* has found them.
+  setCauses(causes) {
+    this.causes = causes;
+    for (const [row, element] of this.shown) this.markCauses(row, element);
+  }
+
+  markCauses(row, element) {
+    const names = this.causes.get(row);
+    element.classList.toggle('reason', names !== undefined);
+    for (const one of element.querySelectorAll('.k'))
+      one.classList.toggle('cause', names !== undefined && names.includes(one.dataset.name));
   }
 
   // The power in a rung. Every element says in data-on whether it is on; wires, whether they have power.

@@ -66,8 +66,9 @@ export function writeControls(name, writer, current) {
 
 // The name that is selected: what it is, its value, where it is used, and why.
 export class Detail {
-  constructor(box, names, writer, go, watch) {
-    Object.assign(this, {box, names, writer, go, watch, name: '', shown: null});
+  // `act`: go(rung), goRow(row), seek(scan), watch(name), causes(map of rows to the names that decided in them).
+  constructor(box, names, writer, act) {
+    Object.assign(this, {box, names, writer, act, name: ''});
   }
 
   async show(element) {
@@ -75,6 +76,7 @@ export class Detail {
     await this.names.load();
     const known = element.dataset.id !== undefined ? this.names.byId.get(Number(element.dataset.id)) : null;
     this.known = known;
+    this.act.causes(new Map());
     this.name = known && known.kind !== 't' ? known.name : '';
     this.fill(label, known);
     this.box.hidden = false;
@@ -100,7 +102,7 @@ export class Detail {
     const row = (what, rungs, machine) => {
       uses.append(make('dt', '', what));
       const cell = make('dd');
-      cell.append(rungs.length ? rungLinks(rungs, this.go) : make('span', 'soft', machine ? 'machine' : 'no rung'));
+      cell.append(rungs.length ? rungLinks(rungs, this.act.go) : make('span', 'soft', machine ? 'machine' : 'no rung'));
       uses.append(cell);
     };
     row('Written in', known.writes, known.kind === 'i');
@@ -109,7 +111,7 @@ export class Detail {
     const actions = make('div', 'actions');
     if (this.name) {
       actions.append(button('Why?', () => this.why(), 'Which rungs and inputs lead to this value'),
-        button('Watch', () => this.watch(this.name), 'Add to the watch list ( w )'));
+        button('Watch', () => this.act.watch(this.name), 'Add to the watch list ( w )'));
       this.box.append(actions);
       this.controls = make('div');
       this.box.append(this.controls);
@@ -126,14 +128,35 @@ export class Detail {
     try {
       const answer = await get('why?name=' + encodeURIComponent(this.name));
       this.reason.replaceChildren();
+      this.act.causes(new Map(answer.steps.filter(step => step[3] !== null).map(step => [step[3], step[4]])));
+      if (answer.steps.length) return this.fillSteps(answer.steps);
       // Rungs in the text lead to them.
       for (const part of answer.why.split(/(rung \d+)/)) {
         const rung = /^rung (\d+)$/.exec(part);
-        if (rung) this.reason.append(rungLinks([Number(rung[1])], this.go)); else this.reason.append(part);
+        if (rung) this.reason.append(rungLinks([Number(rung[1])], this.act.go)); else this.reason.append(part);
         if (rung) this.reason.lastChild.prepend('rung ');
       }
     } catch (error) {
       this.reason.textContent = error.message;
+    }
+  }
+
+  // Each step with its scan, its rung, and what decided in it; that is marked in the drawing, too.
+  fillSteps(steps) {
+    for (const [depth, text, scan, row, causes] of steps) {
+      const line = make('div', 'step');
+      line.style.marginLeft = Math.min(depth, 6) * 10 + 'px';
+      const link = (label, act, title) => {
+        const one = make('a', '', label);
+        one.href = '#why';
+        one.title = title;
+        one.onclick = event => { event.preventDefault(); act(); };
+        return one;
+      };
+      line.append(row === null ? text : link(text, () => this.act.goRow(row), 'Show the rung'), ' since ',
+        link(`scan ${scan}`, () => this.act.seek(scan), 'Go back to this scan'));
+      if (causes.length) line.append(make('div', 'soft', 'decided by ' + causes.join(', ')));
+      this.reason.append(line);
     }
   }
 
@@ -153,6 +176,7 @@ export class Detail {
   close() {
     this.box.hidden = true;
     this.name = '';
+    this.act.causes(new Map());
   }
 }
 
@@ -335,7 +359,7 @@ export class History {
 }
 
 export function kindText(kind) {
-  return {message: 'message', gone: 'message gone', fault: 'fault', set: 'set', force: 'force', statement: 'operator'}[kind] ?? kind;
+  return {message: 'message', gone: 'message gone', fault: 'fault', set: 'set', force: 'force', statement: 'operator', mark: 'mark'}[kind] ?? kind;
 }
 
 export function timeText(us) {

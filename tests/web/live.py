@@ -17,8 +17,8 @@ LINK = re.compile(r"http://([^/]+)/\?token=([0-9a-f]+)")
 class Live:
     """rungc run … --web, until close()."""
 
-    def __init__(self, rungc, *words, cwd=ROOT):
-        self.process = subprocess.Popen([rungc, "run", *map(str, words), "--web"], cwd=cwd, stdout=subprocess.PIPE,
+    def __init__(self, rungc, *words, cwd=ROOT, command="run"):
+        self.process = subprocess.Popen([rungc, command, *map(str, words), "--web"], cwd=cwd, stdout=subprocess.PIPE,
                                         stderr=subprocess.STDOUT, text=True)
         printed = []
         found = None

@@ -235,6 +235,41 @@ class Connection(unittest.TestCase):
             live.close()
 
 
+class Recorded(unittest.TestCase):
+    def test_replay(self):
+        """A scenario as it ran: played, dragged back, asked why; it cannot be changed."""
+        live = Live(RUNGC, EXAMPLE / "spindle.scn", command="replay")
+        page = Browser()
+        try:
+            page.open(live.link)
+            page.until("return document.getElementById('state').textContent === 'Past'", "the past")
+            last = int(page.text("#scan"))
+            self.assertEqual(page.text("#go"), "Play")
+            page.click("#back")
+            page.until("return document.getElementById('scan').textContent === String(arguments[0])", "a scan back", last - 1)
+            page.js("const s = document.getElementById('slider'); s.value = 2; s.dispatchEvent(new Event('input'))")
+            page.until("return document.getElementById('scan').textContent === '2'", "the beginning")
+            page.click("#go")
+            page.until("return Number(document.getElementById('scan').textContent) > 12", "it plays")
+            page.click("#go")
+            page.click("#tab-log")
+            page.until("return document.querySelectorAll('#log tbody tr.k-statement').length > 3", "what the scenario did")
+            page.click("#tab-ladder")
+            page.js("const s = document.getElementById('slider'); s.value = s.max; s.dispatchEvent(new Event('input'))")
+            page.until("return document.getElementById('scan').textContent === String(arguments[0])", "the end", last)
+            page.find("#what").send_keys("SPINDLE_CW", Keys.ENTER)
+            page.until("return document.querySelector('#detail h2')?.textContent === 'SPINDLE_CW'", "the name")
+            page.js("[...document.querySelectorAll('#detail button')].find(b => b.textContent === 'Why?').click()")
+            page.until("return document.querySelectorAll('.step').length > 0", "the chain")
+            page.until("return document.querySelector('#r260 .cause')", "what decided, in the drawing")
+            page.click("#writing")
+            page.until("return /recording cannot be changed/.test(document.getElementById('toast').textContent)", "refused")
+            self.assertEqual(page.errors(), [])
+        finally:
+            page.close()
+            live.close()
+
+
 class Alternating(unittest.TestCase):
     def test_one_scan_at_a_time(self):
         """X alternates; two rungs read X and not X, and no picture has them both on, or both off."""

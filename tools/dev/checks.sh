@@ -193,6 +193,8 @@ check_fanuc() { # programs of others, which FANUC_PROGRAMS names
 check_web() { # the live page, in Chromium
   build_some rungc
   /usr/bin/python3 tests/web/page_test.py build/bin/rungc
+  /usr/bin/python3 tests/web/flow_test.py build/bin/rungc 1000
+  /usr/bin/python3 tests/web/large_test.py build/bin/rungc
 }
 
 check_connections() { # mbpoll and pymodbus: values, and counted overruns

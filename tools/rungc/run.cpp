@@ -24,6 +24,7 @@
 #include "tools/scenario/prompt.h"
 #include "tools/scenario/trace.h"
 #include "tools/scenario/words.h"
+#include "tools/web/session_source.h"
 
 namespace rung::rungc {
 namespace {
@@ -125,7 +126,10 @@ public:
         recording_(startOf(options, program.compiled.has_value())) {
     programs_.push_back(std::move(program));
     session_.addEngine(first().runs());
-    session_.setCompiled([this] { return first().wanted(); });
+    if (options.web)
+      web::observeForces(session_, *first().flow);
+    else
+      session_.setCompiled([this] { return first().wanted(); });
     session_.setMakeProgram([this](const scenario::Statement& s) { return next(s); });
   }
 
@@ -283,6 +287,8 @@ private:
 
   // Until the user stops it.
   int showPage() {
+    if (&session_.instance().program() != &first().runs().program())
+      return environmentError("the scenario has replaced the program, whose rungs the page would show");
     session_.setUnattended();
     session_.setInterrupt({});
     const std::string title = options_.source.project ? options_.source.project->name : "";

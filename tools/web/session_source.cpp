@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <memory>
 #include <utility>
 
+#include "ir/interp/interp.h"
 #include "tools/report/place_names.h"
 #include "tools/scenario/names.h"
 #include "tools/scenario/statements.h"
@@ -18,7 +20,41 @@ constexpr int64_t kMomentEveryUs = 500'000; // on the program's clock
 constexpr size_t kMostMoments = 600;
 constexpr int64_t kMostSteps = 10'000; // of one order
 
+// Code in which forced bits are as an observer holds them: the program's own.
+int32_t ownCode(void*, const rung_image* image, void* engine, const rung_forced_byte*, uint32_t, rung_forced_code* code,
+                char*, size_t) {
+  *code = {.chunk_fns = rung_image_program(image)->chunk_fns, .engine = engine, .release = nullptr, .owner = nullptr};
+  return RUNG_OK;
+}
+
+// A forced bit that the operation has written has its value again before anything can read it.
+class HeldBits final : public ir::RungObserver {
+public:
+  explicit HeldBits(runtime::Instance& instance) : instance_(instance) {}
+  void rungRan(uint32_t, std::span<const uint64_t>) override {}
+  void accessed(const ir::Access& access) override {
+    if (access.writes) instance_.hold();
+  }
+
+private:
+  runtime::Instance& instance_;
+};
+
+// Statements that only act between two scans of the same program.
+bool isAction(const scenario::Statement& statement) {
+  const scenario::StatementInfo& info = scenario::StatementInfo::of(statement);
+  const bool travels = statement.kind == scenario::Kind::Snapshot || statement.kind == scenario::Kind::Restore;
+  return info.stage == scenario::Stage::Run && info.advances == scenario::Advance::Nothing &&
+         info.program == scenario::OtherProgram::None && !travels;
+}
+
 } // namespace
+
+void observeForces(scenario::Session& session, replay::FlowEngine& engine) {
+  session.machine().image().serve(
+      {.size = sizeof(rung_code_maker), .reserved = 0, .force = &ownCode, .release = nullptr, .user = nullptr});
+  static_cast<ir::InterpEngine&>(engine.engine()).setObserver(std::make_unique<HeldBits>(session.instance()));
+}
 
 SessionSource::SessionSource(scenario::Session& session, const scenario::Explainer& explainer,
                              const ShownProgram& program, replay::FlowEngine& engine)
@@ -126,6 +162,7 @@ Result<std::string> SessionSource::write(const std::string& line, const char* ki
   if (scan_ < last_) return failure("this is the past: nothing can be written there; go to the newest scan first");
   const scenario::ParsedLine parsed = scenario::parseLine(line);
   if (!parsed.statement) return failure(parsed.problem);
+  if (!isAction(*parsed.statement)) return failure("only statements that act between two scans can be given here");
   if (const std::string problem = statement(line); !problem.empty()) return failure(problem);
   done_.push_back({scan_, line});
   nextDone_ = done_.size();

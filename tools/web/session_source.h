@@ -12,9 +12,13 @@
 
 namespace rung::web {
 
+// Before the session's start: its forces need no code of their own from then on, since every access of its rungs is
+// observed; by this function until there is a SessionSource. The session's only engine is that of `engine`.
+void observeForces(scenario::Session& session, replay::FlowEngine& engine);
+
 class SessionSource final : public PacedSource {
 public:
-  // All arguments must outlive it. The session has started; its only engine is that of `engine`.
+  // All arguments must outlive it. The session has started; observeForces was called with both.
   SessionSource(scenario::Session& session, const scenario::Explainer& explainer, const ShownProgram& program,
                 replay::FlowEngine& engine);
 

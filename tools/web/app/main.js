@@ -1,6 +1,6 @@
 // The page: puts its parts together, and draws every picture in all of them at once.
 import {get, post, Pictures} from './link.js';
-import {kNarrow, Pane} from './pane.js';
+import {isNarrow, Pane} from './pane.js';
 import {Tree} from './tree.js';
 import {Find, Names} from './find.js';
 import {Detail, History, make, Terminals, timeText, Watch, Writer} from './panels.js';
@@ -79,7 +79,7 @@ function keysDialog() {
 }
 
 async function start() {
-  const narrow = by('ladder').clientWidth < kNarrow;
+  const narrow = isNarrow();
   const index = await get('index?narrow=' + Number(narrow));
   document.title = index.title + ' – Rung';
   by('title').textContent = index.title;

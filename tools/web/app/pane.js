@@ -6,7 +6,8 @@ const kCached = 600;  // rows whose HTML is kept
 const kChunk = 40;
 const kKinds = {f: 'file', m: 'module', s: 'section', c: 'comment', r: 'rung'};
 
-export const kNarrow = 640;  // pixels: drawings are cut for narrower panes
+// Drawings are cut for narrow windows, as app.css has it.
+export const isNarrow = () => innerWidth <= 760;
 
 export class Pane {
   constructor(pane, space, index, narrow, chosen) {
@@ -42,7 +43,7 @@ export class Pane {
 
   // A pane that becomes narrow, or wide again, has other drawings.
   async resized() {
-    const narrow = this.pane.clientWidth < kNarrow;
+    const narrow = isNarrow();
     if (!this.pane.clientWidth || narrow === this.narrow) return this.soon();
     this.narrow = narrow;
     const at = this.focusRow >= 0 ? this.focusRow : this.visible()[0];

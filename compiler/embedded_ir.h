@@ -10,6 +10,15 @@
 
 namespace rung::compiler {
 
+// The IR with its marks as text, from which the program can be compiled without its sources. `compiled` must have its
+// module as built (keepBuilt).
+std::string irText(const Compiled& compiled);
+// What such a text was compiled to, without sources and diagnostics. It may be any bytes.
+Result<Compiled> compiledOf(std::string_view text);
+// The same of a file of a recording (docs/recording.md): a shared object that contains the text, or the text itself.
+// Fails if this compiler makes a program with another hash of it.
+Result<Compiled> programOf(std::string_view file, uint64_t codeHash);
+
 // The shared object with the IR in a section that is not loaded. `compiled` must have its module as built (keepBuilt).
 Result<std::string> withIr(std::string_view object, const Compiled& compiled);
 

@@ -38,6 +38,7 @@ std::optional<core::Code> ServedOwner::codeFor(const runtime::Forcing& forcing) 
 HostPlayer::HostPlayer(rung_image* image, runtime::PlayerOwner& owner) : owner_(owner) {
   const rung_instance_options options{.size = sizeof options, .user = this, .request = &HostPlayer::request};
   if (newInstance(image, &options, nullptr, &instance_) != RUNG_OK) throw std::runtime_error(errorText());
+  bits_ = runtime::bitBytes(running().program());
 }
 
 HostPlayer::~HostPlayer() { (void)rung_instance_free(instance_); }
@@ -45,6 +46,37 @@ HostPlayer::~HostPlayer() { (void)rung_instance_free(instance_); }
 void HostPlayer::setEvents(std::span<const uint8_t> events) {
   reader_ = EventReader(events);
   failed_ = false;
+  repeats_ = 0;
+}
+
+// As HostRecorder writes it. The inputs may be others than those that the block has now.
+std::vector<uint8_t> HostPlayer::state() {
+  core::Saver counted({});
+  if (!whole_ || !inputs_ || !saveState(*instance_, counted, Waiting::LeftOut)) return {};
+  const std::span<const core::ForcedBits> forced = running().forcedBits();
+  constexpr size_t kNumber = 10; // bytes of one, at most
+  size_t room = counted.size() + 2 * inputs_->listed() + inputs_->bytes() + (16 + 3 * forced.size()) * kNumber;
+  for (const Configured& one : configured_) room += one.text.size() + 6 * kNumber;
+  std::vector<uint8_t> events(room);
+  runtime::EventWriter writer(events);
+  writer.put(Event::Surroundings, 0, 0, neededOnly_);
+  for (const Configured& one : configured_) {
+    writer.put(Event::Configured, static_cast<uint32_t>(one.kind), one.a, one.b, one.c, one.text.size());
+    writer.putBytes({reinterpret_cast<const uint8_t*>(one.text.data()), one.text.size()});
+  }
+  writer.put(Event::Inputs);
+  inputs_->list(writer);
+  writer.put(Event::Forces, forced.size());
+  for (const core::ForcedBits& bits : forced)
+    writer.putNumber(bits.offset), writer.putNumber(bits.mask), writer.putNumber(bits.value);
+  writer.put(Event::State, counted.size());
+  core::Saver saver(writer.rest());
+  (void)saveState(*instance_, saver, Waiting::LeftOut);
+  writer.advance(counted.size());
+  inputs_->listKnown(writer);
+  writer.put(Event::Served, served_);
+  events.resize(writer.size());
+  return events;
 }
 
 Played HostPlayer::damaged() {
@@ -135,7 +167,7 @@ bool HostPlayer::takeBefore(Event event) {
     const uint64_t offset = reader_.takeNumber();
     const std::span<const uint8_t> bytes = reader_.takeBytes(reader_.takeNumber());
     const std::span<uint8_t> block = running().block();
-    if (!reader_.good() || !inputs_ || offset > block.size() || bytes.size() > block.size() - offset) return false;
+    if (!reader_.good() || !inputs_ || !runtime::mayWrite(bits_, offset, bytes)) return false;
     if (event == Event::Input)
       inputs_->set(offset, bytes);
     else
@@ -147,7 +179,9 @@ bool HostPlayer::takeBefore(Event event) {
   case Event::Function: return takeFunction();
   case Event::Abort:
     return rung_instance_abort_functions(instance_, reader_.takeNumber32()) == RUNG_OK && reader_.good();
-  case Event::Served: return rung_instance_serving(instance_, reader_.takeNumber() != 0) == RUNG_OK;
+  case Event::Served:
+    served_ = reader_.takeNumber() != 0;
+    return rung_instance_serving(instance_, served_ ? 1 : 0) == RUNG_OK;
   case Event::Saved: instance_->control->saved(running()); return true;
   case Event::Mark: {
     const std::span<const uint8_t> text = reader_.takeBytes(reader_.takeNumber());
@@ -190,7 +224,7 @@ bool HostPlayer::takeForces() {
   std::vector<core::ForcedBits> bits;
   for (uint64_t count = reader_.takeNumber(); count != 0 && reader_.good(); --count) {
     const uint32_t offset = reader_.takeNumber32(), mask = reader_.takeNumber32(), value = reader_.takeNumber32();
-    if (offset >= running().program().memory_size || mask > 255 || value > 255) return false;
+    if (offset >= bits_.size() || mask > (bits_[offset] ? 1 : 255) || value > mask) return false;
     bits.push_back({offset, static_cast<uint8_t>(mask), static_cast<uint8_t>(value)});
   }
   return reader_.good() && owner_.force(running(), bits);

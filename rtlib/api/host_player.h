@@ -9,6 +9,7 @@
 #include "rtlib/api/instance.h"
 #include "rtlib/record/input_bits.h"
 #include "rtlib/record/player.h"
+#include "rtlib/record/watched_bytes.h"
 
 namespace rung::api {
 
@@ -45,7 +46,12 @@ public:
   void setEvents(std::span<const uint8_t> events);
   size_t position() const { return reader_.position(); }
   runtime::Played play();
+  uint64_t repeatsLeft() const { return repeats_; }
+  runtime::PartKind lastKind() const { return kind_; }
+  uint32_t lastNumber() const { return number_; }
   const std::optional<runtime::PlayedDifference>& difference() const { return difference_; }
+  // Events by which another player gets the present state, up to their end; empty within a scan, and before a state.
+  std::vector<uint8_t> state();
   bool isWhole() const { return whole_; }
 
 private:
@@ -70,8 +76,10 @@ private:
   rung_instance* instance_ = nullptr;
   runtime::EventReader reader_{{}};
   std::optional<runtime::InputBits> inputs_;
+  runtime::BlockBytes bits_;
   std::vector<Configured> configured_; // that the control has
   bool neededOnly_ = false;
+  bool served_ = false;
   bool whole_ = false;
   bool failed_ = false;
   bool wasFaulted_ = false;

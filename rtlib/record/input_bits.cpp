@@ -41,6 +41,14 @@ void InputBits::list(EventWriter& writer) const noexcept {
   });
 }
 
+void InputBits::listKnown(EventWriter& writer) const noexcept {
+  for (const Piece& piece : pieces_) {
+    const auto bytes = std::bit_cast<std::array<uint8_t, kPiece>>(piece.known);
+    writer.put(Event::Input, piece.offset, kPiece);
+    writer.putBytes(bytes);
+  }
+}
+
 size_t InputBits::listed() const noexcept {
   constexpr size_t kNumber = 5; // bytes of a number of 32 bits
   size_t size = kNumber;

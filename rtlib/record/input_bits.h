@@ -59,6 +59,8 @@ public:
       std::memcpy(block + piece.offset, &words, sizeof words);
     }
   }
+  // Writes what is known as events (Event::Input).
+  void listKnown(EventWriter& writer) const noexcept;
   // From now on these bytes are known, from `offset` on.
   void set(uint64_t offset, std::span<const uint8_t> bytes) noexcept;
 

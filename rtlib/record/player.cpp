@@ -22,7 +22,8 @@ bool PlayerOwner::force(Instance& instance, std::span<const core::ForcedBits> bi
 }
 
 Player::Player(Instance& instance, PlayerOwner& owner)
-    : instance_(instance), owner_(owner), written_(writtenBytes(instance.program())) {
+    : instance_(instance), owner_(owner), written_(writtenBytes(instance.program())),
+      bits_(bitBytes(instance.program())) {
   instance_.setHooks(this);
 }
 
@@ -148,7 +149,7 @@ bool Player::takeForces() {
   std::vector<core::ForcedBits> bits;
   for (uint64_t count = reader_.takeNumber(); count != 0 && reader_.good(); --count) {
     const uint32_t offset = reader_.takeNumber32(), mask = reader_.takeNumber32(), value = reader_.takeNumber32();
-    if (offset >= instance_.program().memory_size || mask > 255 || value > 255) return false;
+    if (offset >= bits_.size() || mask > (bits_[offset] ? 1 : 255) || value > mask) return false;
     bits.push_back({offset, static_cast<uint8_t>(mask), static_cast<uint8_t>(value)});
   }
   return reader_.good() && owner_.force(instance_, bits);
@@ -158,7 +159,7 @@ bool Player::takeBytes() {
   const uint64_t offset = reader_.takeNumber();
   const std::span<const uint8_t> bytes = reader_.takeBytes(reader_.takeNumber());
   const std::span<uint8_t> block = instance_.block();
-  if (!reader_.good() || offset > block.size() || bytes.size() > block.size() - offset) return false;
+  if (!reader_.good() || !mayWrite(bits_, offset, bytes)) return false;
   std::ranges::copy(bytes, block.begin() + static_cast<ptrdiff_t>(offset));
   return true;
 }

@@ -95,6 +95,7 @@ private:
   EventReader reader_{{}};
   Surroundings surroundings_;
   BlockBytes written_; // by the program
+  BlockBytes bits_;
   std::optional<WatchedBytes> outputs_;
   uint32_t outputsHash_ = 0;
   bool whole_ = false;

@@ -318,6 +318,8 @@ bool Instance::hasOnlyBits() const noexcept {
       const auto bits = block().subspan(range.offset, size_t{8} * range.byte_count);
       if (std::ranges::any_of(bits, [](uint8_t bit) { return bit > 1; })) return false;
     }
+  for (const rung_slot& slot : std::span(program().slots, program().slot_count))
+    if (slot.type == RUNG_TYPE_BIT && block()[slot.offset] > 1) return false;
   return true;
 }
 

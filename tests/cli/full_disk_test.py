@@ -41,6 +41,7 @@ COMMANDS = {
     "diff": ["a.pmc", "b.pmc"],
     "run": ["a.pmc", "--scans", "2"],
     "test": ["a.scn"],
+    "replay": ["a.scn", "--show", "Y0.0"],
     "profile": ["a.scn", "--engine", "interp"],
     "wcet": ["a.pmc"],
     "explain": ["dead-loop"],

@@ -25,7 +25,7 @@ RUNGC = None
 ROOT = Path(__file__).resolve().parents[2]
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").rglob("*.md"))]
 # Pages whose commands are run, in the order in which a newcomer reads them; all write into the scratch folder alone.
-RUN_PAGES = [ROOT / "README.md", *(ROOT / "docs" / name for name in ("first-machine.md", "guide.md", "importing.md", "fanuc-ladder.md", "ir.md", "linuxcnc.md", "rung-run.md", "embedding.md", "bind.md", "security.md"))]
+RUN_PAGES = [ROOT / "README.md", *(ROOT / "docs" / name for name in ("first-machine.md", "guide.md", "importing.md", "fanuc-ladder.md", "ir.md", "linuxcnc.md", "rung-run.md", "embedding.md", "bind.md", "security.md", "replay.md"))]
 SCRATCH = "out"
 # Not run: what builds, what is interactive, and what tests/debug runs.
 SKIPPED_COMMANDS = ("./dev", "gdb", "valgrind", "callgrind_annotate", "perf")

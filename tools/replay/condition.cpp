@@ -27,7 +27,7 @@ std::string_view comparisonAt(std::string_view text) {
 // A bracket of an index belongs to its name.
 Result<std::vector<Token>> tokensOf(std::string_view text) {
   std::vector<Token> tokens;
-  bool open = false; // the last token goes on
+  bool open = false; // the last token continues
   while (!text.empty()) {
     const std::string_view comparison = comparisonAt(text);
     if (text[0] == ' ' || text[0] == '\t') {

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <charconv>
 #include <fmt/format.h>
+#include <fstream>
 #include <utility>
 
 #include "rtlib/load/program_info.h"
+#include "tools/replay/scenario_file.h"
 #include "tools/replay/why.h"
 #include "tools/scenario/names.h"
 #include "tools/scenario/trace.h"
@@ -50,8 +52,9 @@ std::span<const Console::Command> Console::commands() {
       {"scan", "scan N", "goes to the end of scan N", false, &Console::scan},
       {"time", "time 1.5s", "goes to the first scan that ends at this time of the program's clock or later", false,
        &Console::time},
-      {"next", "next [N] [scan|task|rung]", "goes on by a scan, a task or a rung, or by N", false, &Console::next},
-      {"back", "back [N] [scan|task|rung]", "goes back", false, &Console::back},
+      {"next", "next [N] [scan|task|rung]", "moves forwards by a scan, a task or a rung, or by N", false,
+       &Console::next},
+      {"back", "back [N] [scan|task|rung]", "moves backwards", false, &Console::back},
       {"show", "show NAME…", "the values at this moment", true, &Console::show},
       {"rung", "rung [N]", "a rung with its power in this scan; without N, all that ran", false, &Console::rung},
       {"find", "find CONDITION",
@@ -62,8 +65,8 @@ std::span<const Console::Command> Console::commands() {
       {"messages", "messages", "the messages of the program, with their scans", false, &Console::messages},
       {"faults", "faults", "the faults that stopped the program", false, &Console::faults},
       {"compare", "compare", "plays everything, and compares it with what was recorded", false, &Console::compare},
-      {"export", "export FILE.vcd|FILE.csv [FROM TO] [NAME…]", "writes values of all scans, or of FROM to TO", true,
-       &Console::exportCommand},
+      {"export", "export FILE.vcd|.csv|.scn [FROM TO] [NAME…]",
+       "writes values of scans, or a scenario that does the same", true, &Console::exportCommand},
       {"help", "help", "this list", false, &Console::help},
       {"quit", "quit", "ends it, as does Ctrl-D", false, &Console::quit},
   };
@@ -406,7 +409,8 @@ Outcome Console::compare(Words) {
 
 // ---- files -------------------------------------------------------------------------------------------------------
 
-std::string Console::exportTrace(const std::string& path, uint64_t from, uint64_t to, std::vector<std::string> names) {
+std::string Console::exportTo(const std::string& path, uint64_t from, uint64_t to, std::vector<std::string> names) {
+  if (path.ends_with(".scn")) return exportScenario(path, from, to);
   if (std::string wrong = scenario::traceFileProblem(path); !wrong.empty()) return wrong;
   if (std::string problem = past_.goTo(std::max(from, past_.firstPart())); !problem.empty()) return problem;
   runs_.reset();
@@ -420,8 +424,18 @@ std::string Console::exportTrace(const std::string& path, uint64_t from, uint64_
   return trace.value()->finish();
 }
 
+std::string Console::exportScenario(const std::string& path, uint64_t from, uint64_t to) {
+  const Result<std::string> text = scenarioOf(past_, path, from, to);
+  runs_.reset();
+  if (!text.ok()) return text.error();
+  std::ofstream out(path, std::ios::binary);
+  out << text.value();
+  out.close();
+  return out ? std::string() : fmt::format("cannot write '{}'", path);
+}
+
 Outcome Console::exportCommand(Words words) {
-  if (words.empty()) return fail("expected a file (the command is: export FILE.vcd|FILE.csv [FROM TO] [NAME…])");
+  if (words.empty()) return fail("expected a file (the command is: export FILE.vcd|.csv|.scn [FROM TO] [NAME…])");
   uint64_t from = past_.firstPart(), to = past_.contents().parts;
   size_t next = 1;
   if (words.size() >= 3 && numberOf(words[1]) && numberOf(words[2])) {
@@ -430,8 +444,7 @@ Outcome Console::exportCommand(Words words) {
     next = 3;
   }
   const uint64_t here = past_.part();
-  const std::string problem =
-      exportTrace(words[0], from, to, {words.begin() + static_cast<ptrdiff_t>(next), words.end()});
+  const std::string problem = exportTo(words[0], from, to, {words.begin() + static_cast<ptrdiff_t>(next), words.end()});
   (void)past_.goTo(here);
   return problem.empty() ? say("wrote " + words[0]) : fail(problem);
 }

@@ -34,11 +34,11 @@ Result<std::unique_ptr<Past>> Past::open(const Recording& recording, const PastO
 
 // ---- places ------------------------------------------------------------------------------------------------------
 
-size_t Past::position() const { return again_ != 0 ? base_ : base_ + stage().player().position(); }
+size_t Past::position() const { return again_ != 0 ? base_ : base_ + stages_[stageNumber_]->player().position(); }
 
 Result<void> Past::useStage(uint32_t number) {
   if (!stages_[number]) {
-    Result<std::unique_ptr<Stage>> made = Stage::make(*recording_.programs[number], options_.engine);
+    Result<std::unique_ptr<Stage>> made = Stage::make(*recording_.programs[number], options_.engine, recording_.mode);
     if (!made.ok()) return made.failure();
     stages_[number] = std::move(made).value();
   }
@@ -77,8 +77,7 @@ bool Past::resume(const Moment& moment) {
   if (const Result<void> made = useStage(moment.program); !made.ok()) return false;
   segment_ = moment.segment;
   part_ = moment.part;
-  stage().player().setEvents(moment.events);
-  if (stage().player().play() != Played::State) return false;
+  if (!playState(stage().player(), moment.events)) return false;
   play(moment.position);
   if (moment.repeats == 0) return true;
   again_ = moment.repeats;
@@ -91,10 +90,10 @@ bool Past::resume(const Moment& moment) {
   return true;
 }
 
-std::optional<Moment> Past::present() const {
-  std::optional<std::vector<uint8_t>> state = stage().state();
-  if (!state) return std::nullopt;
-  const runtime::Player& player = stages_[stageNumber_]->player();
+std::optional<Moment> Past::present() {
+  AnyPlayer& player = stage().player();
+  std::vector<uint8_t> state = player.state();
+  if (state.empty()) return std::nullopt;
   const bool again = again_ != 0;
   return Moment{.program = stageNumber_,
                 .segment = segment_,
@@ -103,7 +102,7 @@ std::optional<Moment> Past::present() const {
                 .repeats = again ? again_ : player.repeatsLeft(),
                 .kind = again ? againKind_ : player.lastKind(),
                 .number = again ? againNumber_ : player.lastNumber(),
-                .events = std::move(*state)};
+                .events = std::move(state)};
 }
 
 void Past::keep() {
@@ -176,7 +175,7 @@ bool Past::next() {
 
 void Past::takeSent() {
   rung_message message;
-  while (stage().instance().messages().pop(message)) sent_.push_back(message);
+  while (stage().player().instance().messages().pop(message)) sent_.push_back(message);
 }
 
 void Past::noteDifference() {

@@ -45,8 +45,8 @@ public:
   // Parts that have run at the present position.
   uint64_t part() const { return part_; }
   // The program in its state at the present position. To be read only.
-  const runtime::Instance& instance() const { return stage().instance(); }
-  const compiler::Compiled& compiled() const { return stage().compiled(); }
+  const runtime::Instance& instance() const { return stages_[stageNumber_]->player().instance(); }
+  const compiler::Compiled& compiled() const { return stages_[stageNumber_]->compiled(); }
   uint32_t programNumber() const { return stageNumber_; } // in Recording::programs
   // The first part that can be reached.
   uint64_t firstPart() const { return contents_.states.front().part; }
@@ -55,7 +55,7 @@ public:
   std::string goTo(uint64_t part);
   // Goes to the first part after which the clock is at least at `us`, or to the last one.
   std::string goToTime(int64_t us);
-  // Goes on by one part. False: the recording has ended, or cannot be played further; `problem` says why.
+  // Continues by one part. False: the recording has ended, or cannot be played further; `problem` says why.
   bool next();
   const std::string& problem() const { return problem_; } // "": the end
 
@@ -67,6 +67,8 @@ public:
   // The state before that part, of the same program; empty: the program was started, or a state loaded, in between.
   std::span<const uint8_t> blockBefore() const { return blockBefore_; }
 
+  // Sees what comes to the program from outside while `next` runs it, in the program of now. Null: none.
+  void watch(runtime::OutsideWatch* watch) { stage().player().instance().setOutsideWatch(watch); }
   // The messages that the program has sent in the last part that `next` has run.
   std::span<const rung_message> sent() const { return sent_; }
   // Those found so far where it has been played; the first ones.
@@ -77,7 +79,6 @@ private:
       : recording_(recording), options_(options), contents_(recording), stages_(recording.programs.size()) {}
 
   Stage& stage() { return *stages_[stageNumber_]; }
-  const Stage& stage() const { return *stages_[stageNumber_]; }
   std::span<const uint8_t> events() const { return recording_.segments[segment_].events; }
   size_t position() const;
   Result<void> useStage(uint32_t number);
@@ -88,7 +89,7 @@ private:
   bool nextSegment();
   bool otherProgram();
   void keep();
-  std::optional<Moment> present() const;
+  std::optional<Moment> present();
   void noteDifference();
   void takeSent();
 

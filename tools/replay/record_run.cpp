@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <stdexcept>
 #include <utility>
 
+#include "compiler/embedded_ir.h"
 #include "tools/scenario/compile_step.h"
 #include "tools/scenario/statements.h"
 
@@ -22,57 +24,42 @@ runtime::RecordedBytes recordedBytes(const rung_program& program) {
 }
 
 constexpr size_t kRing = size_t{1} << 24;
+constexpr uint64_t kScansBetween = 512; // blocks of files
 
 } // namespace
 
-// Passes everything on to a recorder, and counts parts.
-class SessionRecorder::Counter final : public runtime::OutsideWatch {
-public:
-  explicit Counter(const runtime::Instance& instance)
-      : recorder(instance, recordedBytes(instance.program()), {.ringBytes = kRing}) {}
-
-  void begins(const runtime::Instance& instance, runtime::PartKind kind, uint32_t number) noexcept override {
-    parts += depth_++ == 0 ? 1 : 0;
-    recorder.begins(instance, kind, number);
-  }
-  void ended(const runtime::Instance& instance) noexcept override {
-    --depth_;
-    recorder.ended(instance);
-  }
-  void withinBegins(const runtime::Instance& instance) noexcept override { recorder.withinBegins(instance); }
-  void withinEnded(const runtime::Instance& instance) noexcept override { recorder.withinEnded(instance); }
-  void requested(const runtime::Instance& instance, const core::ServiceRequest& request,
-                 const core::ServiceReply* reply) noexcept override {
-    recorder.requested(instance, request, reply);
-  }
-  void written(const runtime::Instance& instance, uint32_t offset, uint32_t bytes) noexcept override {
-    recorder.written(instance, offset, bytes);
-  }
-  void surroundingsChanged(const runtime::Instance& instance) noexcept override {
-    recorder.surroundingsChanged(instance);
-  }
-  void changedWhole(const runtime::Instance& instance) noexcept override { recorder.changedWhole(instance); }
-
-  runtime::Recorder recorder;
-  uint64_t parts = 0;
-
-private:
-  uint32_t depth_ = 0;
-};
-
 SessionRecorder::SessionRecorder(scenario::Session& session)
-    : instance_(&session.instance()), counter_(std::make_unique<Counter>(*instance_)) {
+    : instance_(&session.instance()),
+      recorder_(std::make_unique<runtime::Recorder>(*instance_, recordedBytes(instance_->program()),
+                                                    runtime::RecorderOptions{.ringBytes = kRing})) {
   recording_.segments.emplace_back();
-  instance_->setOutsideWatch(counter_.get());
+  instance_->setOutsideWatch(recorder_.get());
+}
+
+SessionRecorder::SessionRecorder(scenario::Session& session, const std::string& folder,
+                                 const compiler::Compiled& program)
+    : SessionRecorder(session) {
+  const runtime::RecordingOptions options{.folder = folder, .limitBytes = UINT64_MAX};
+  writer_ = std::make_unique<runtime::RecordingWriter>(recorder_->stream(), runtime::RecordingMode::Bytes, options);
+  add(program);
 }
 
 SessionRecorder::~SessionRecorder() {
-  if (instance_ != nullptr) instance_->setOutsideWatch(nullptr);
+  if (instance_ != nullptr) (void)take();
 }
 
+void SessionRecorder::add(const compiler::Compiled& program) {
+  if (writer_ == nullptr) return;
+  const std::string text = compiler::irText(program);
+  writer_->addProgram(program.codeHash, {reinterpret_cast<const uint8_t*>(text.data()), text.size()});
+}
+
+// The writer does without a thread of its own: the clock of a session runs far ahead of it.
 void SessionRecorder::drain() {
-  counter_->recorder.flush();
-  core::ByteRing& ring = counter_->recorder.ring();
+  if (writer_ && ++scans_ % kScansBetween != 0) return;
+  recorder_->flush();
+  if (writer_) return writer_->look();
+  core::ByteRing& ring = recorder_->ring();
   std::vector<uint8_t>& events = recording_.segments.back().events;
   for (auto record = ring.front(); !record.empty(); record = ring.front()) {
     events.insert(events.end(), record.begin(), record.end());
@@ -81,26 +68,44 @@ void SessionRecorder::drain() {
 }
 
 void SessionRecorder::executing(const scenario::Session&, const scenario::Statement& statement) {
-  std::string text = statement.file.empty() ? statement.text
-                                            : fmt::format("{}:{}: {}", statement.file, statement.line, statement.text);
-  recording_.notes.push_back({counter_->parts, std::move(text)});
+  recorder_->mark(statement.file.empty() ? statement.text
+                                         : fmt::format("{}:{}: {}", statement.file, statement.line, statement.text));
 }
 
-// The recorder's bytes are those of the former program.
-void SessionRecorder::replaced(const scenario::Session& session, const scenario::NextProgram&) {
-  drain();
-  const uint64_t parts = counter_->parts;
-  counter_ = std::make_unique<Counter>(session.instance());
-  counter_->parts = parts;
-  recording_.segments.emplace_back();
-  instance_->setOutsideWatch(counter_.get());
+void SessionRecorder::replaced(const scenario::Session& session, const scenario::NextProgram& next) {
+  bytes_ = std::make_unique<runtime::RecordedBytes>(recordedBytes(session.instance().program()));
+  recorder_->programChanged(bytes_);
+  if (writer_ && next.compiled)
+    if (const Result<const compiler::Compiled*> program = next.compiled(); program.ok()) add(*program.value());
 }
 
 Recording SessionRecorder::take() {
+  scans_ = kScansBetween - 1;
   drain();
+  writer_.reset();
   instance_->setOutsideWatch(nullptr);
   instance_ = nullptr;
   return std::move(recording_);
+}
+
+void recordInto(const std::string& folder, scenario::RunOptions& options) {
+  auto recorder = std::make_shared<std::unique_ptr<SessionRecorder>>();
+  const auto started = std::exchange(options.started, {});
+  const auto ended = std::exchange(options.ended, {});
+  options.marks = true;
+  options.started = [=](scenario::Session& session, const compiler::Compiled& program) -> std::string {
+    try {
+      *recorder = std::make_unique<SessionRecorder>(session, folder, program);
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    session.addObserver(**recorder);
+    return started ? started(session, program) : std::string();
+  };
+  options.ended = [=](scenario::Session& session) {
+    if (*recorder) (void)(*recorder)->take();
+    if (ended) ended(session);
+  };
 }
 
 Result<RecordedScenario> recordScenario(const scenario::Scenario& scenario, scenario::RunOptions options) {

@@ -4,16 +4,22 @@
 #include <string>
 
 #include "rtlib/record/recorder.h"
+#include "rtlib/record/recording_writer.h"
 #include "tools/replay/recording.h"
 #include "tools/scenario/runner.h"
 #include "tools/scenario/session.h"
 
 namespace rung::replay {
 
-// Records a session from its start on; to be added to it as an observer then. The session outlives it, or `take`.
+// Records a session from its start on; to be added to it as an observer then. The session outlives it, or `take`. The
+// statements are its marks.
 class SessionRecorder final : public scenario::Observer {
 public:
+  // In memory.
   explicit SessionRecorder(scenario::Session& session);
+  // Into a folder, which is made. `program` is that of the session, with its module as built. Throws
+  // std::runtime_error if the folder cannot be used.
+  SessionRecorder(scenario::Session& session, const std::string& folder, const compiler::Compiled& program);
   ~SessionRecorder() override;
   SessionRecorder(const SessionRecorder&) = delete;
   SessionRecorder& operator=(const SessionRecorder&) = delete;
@@ -22,15 +28,18 @@ public:
   void scanned(const scenario::Session&) override { drain(); }
   void replaced(const scenario::Session& session, const scenario::NextProgram& next) override;
 
-  // What has been recorded; its programs are still missing.
+  // Ends it. What has been recorded in memory; its programs are still missing.
   Recording take();
 
 private:
-  class Counter;
   void drain();
+  void add(const compiler::Compiled& program);
 
   runtime::Instance* instance_;
-  std::unique_ptr<Counter> counter_;
+  std::unique_ptr<runtime::Recorder> recorder_;
+  std::unique_ptr<runtime::RecordingWriter> writer_; // null: in memory
+  std::unique_ptr<runtime::RecordedBytes> bytes_;    // of the former program
+  uint64_t scans_ = 0;
   Recording recording_;
 };
 
@@ -41,5 +50,8 @@ struct RecordedScenario {
 
 // Runs the scenario and records it. Fails if it cannot be run.
 Result<RecordedScenario> recordScenario(const scenario::Scenario& scenario, scenario::RunOptions options);
+
+// Makes the one scenario that runs with these options record into the folder.
+void recordInto(const std::string& folder, scenario::RunOptions& options);
 
 } // namespace rung::replay

@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <optional>
+#include <utility>
 
+#include "compiler/embedded_ir.h"
 #include "rtlib/record/events.h"
+#include "rtlib/record/recording_reader.h"
 
 namespace rung::replay {
 namespace {
@@ -38,10 +41,22 @@ private:
   bool take(Event event, size_t at) {
     switch (event) {
     case Event::State: return state(at);
-    case Event::Surroundings:
+    case Event::Program:
       group_ = at;
+      numbers(1);
+      return true;
+    case Event::Surroundings:
+      if (!group_) group_ = at;
       numbers(3);
       return true;
+    case Event::Inputs: return inputs();
+    case Event::Input: numbers(1); return bytes();
+    case Event::Configured: numbers(4); return bytes();
+    case Event::Function: numbers(3); return true;
+    case Event::Abort:
+    case Event::Served:
+    case Event::Decision: numbers(1); return true;
+    case Event::Saved: return true;
     case Event::Outputs: numbers(2 * reader_.takeNumber()); return true;
     case Event::Forces: numbers(3 * reader_.takeNumber()); return true;
     case Event::Part:
@@ -87,6 +102,13 @@ private:
     (void)reader_.takeBytes(reader_.takeNumber());
     return true;
   }
+  bool inputs() {
+    for (uint64_t count = reader_.takeNumber(); count != 0 && reader_.good(); --count) {
+      numbers(1);
+      bytes();
+    }
+    return true;
+  }
   bool state(size_t at) {
     bytes();
     if (!reader_.good()) return false;
@@ -112,8 +134,82 @@ Contents::Contents(const Recording& recording) {
     if (const std::string& damage = recording.segments[i].damage; !damage.empty())
       landmarks.push_back({Landmark::Kind::Damaged, parts, damage});
   }
-  for (const Note& note : recording.notes) landmarks.push_back({Landmark::Kind::Note, note.part, note.text});
   std::ranges::stable_sort(landmarks, {}, &Landmark::part);
+}
+
+// ---- files -------------------------------------------------------------------------------------------------------
+
+namespace {
+
+// The blocks of a file, in segments that each begin with a state. The last block may be cut off.
+void readSegment(runtime::SegmentReader& reader, Recording& to) {
+  Segment segment;
+  runtime::RecordedBlock block;
+  while (reader.next(block)) {
+    if (block.afterGap && !segment.events.empty()) {
+      segment.damage = fmt::format("{}: blocks before byte {} are damaged", reader.path(), block.offset);
+      to.segments.push_back(std::exchange(segment, {}));
+    }
+    segment.events.insert(segment.events.end(), block.events.begin(), block.events.end());
+  }
+  if (!reader.ended() && reader.rest() != 0)
+    segment.damage = fmt::format("{} ends with {} bytes of a block that was cut off", reader.path(), reader.rest());
+  to.segments.push_back(std::move(segment));
+  to.problems.insert(to.problems.end(), reader.problems().begin(), reader.problems().end());
+}
+
+// Whether the recording has this program now.
+bool takeProgram(const runtime::RecordingReader& reader, uint64_t hash,
+                 std::vector<std::unique_ptr<compiler::Compiled>>& known, Recording& to) {
+  for (const auto& program : to.programs)
+    if (program->codeHash == hash) return true;
+  for (auto& program : known)
+    if (program && program->codeHash == hash) {
+      to.programs.push_back(std::move(program));
+      return true;
+    }
+  std::string problem;
+  const std::optional<std::vector<uint8_t>> file = reader.program(hash, problem);
+  if (!file) {
+    to.problems.push_back(problem);
+    return false;
+  }
+  Result<compiler::Compiled> program =
+      compiler::programOf({reinterpret_cast<const char*>(file->data()), file->size()}, hash);
+  if (!program.ok()) {
+    to.problems.push_back(fmt::format("the program {}: {}", runtime::programName(hash), program.error()));
+    return false;
+  }
+  to.programs.push_back(std::make_unique<compiler::Compiled>(std::move(program).value()));
+  return true;
+}
+
+} // namespace
+
+Result<Recording> readRecording(const std::string& path, std::vector<std::unique_ptr<compiler::Compiled>> known) {
+  std::string problem;
+  const std::optional<runtime::RecordingReader> reader = runtime::RecordingReader::open(path, problem);
+  if (!reader) return failure(problem);
+  Recording recording;
+  bool first = true;
+  for (const runtime::SegmentFile& file : reader->segments()) {
+    std::optional<runtime::SegmentReader> segment = runtime::SegmentReader::open(reader->pathOf(file), problem);
+    if (!segment) {
+      recording.problems.push_back(problem);
+      continue;
+    }
+    if (first) recording.mode = segment->head().mode;
+    first = false;
+    if (segment->head().mode != recording.mode) {
+      recording.problems.push_back(file.name + " was recorded in another way than the segments before it");
+      continue;
+    }
+    if (takeProgram(*reader, segment->head().program, known, recording)) readSegment(*segment, recording);
+  }
+  recording.problems.insert(recording.problems.end(), reader->problems().begin(), reader->problems().end());
+  if (recording.programs.empty())
+    return failure(recording.problems.empty() ? "there is nothing to read in " + path : recording.problems[0]);
+  return recording;
 }
 
 } // namespace rung::replay

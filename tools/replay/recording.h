@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "compiler/compile.h"
+#include "ir/support/result.h"
+#include "rtlib/record/recording_file.h"
 
 namespace rung::replay {
 
@@ -15,17 +17,12 @@ struct Segment {
   std::string damage; // what is missing after it; "": nothing
 };
 
-// What is done to the program from here on: a statement of a scenario, a mark.
-struct Note {
-  uint64_t part = 0; // parts that have run before
-  std::string text;
-};
-
 struct Recording {
   std::vector<Segment> segments;
   // Compiled with marks and their modules as built (CompileRequest::marks, keepBuilt); the first one first.
   std::vector<std::unique_ptr<compiler::Compiled>> programs;
-  std::vector<Note> notes; // by part, in addition to marks among the events
+  runtime::RecordingMode mode = runtime::RecordingMode::Bytes;
+  std::vector<std::string> problems; // what of its files could not be read
 };
 
 // A place in a recording at which a whole state lies.
@@ -39,7 +36,7 @@ struct StatePoint {
 struct Landmark {
   enum class Kind : uint8_t {
     Start,   // the program was started, or other state was loaded
-    Note,    // of the recording, or a mark
+    Note,    // a mark: of a person, or a statement of a scenario
     Fault,   // `part` has ended with it
     Lost,    // events are missing
     Damaged, // the rest of the segment cannot be read
@@ -59,5 +56,9 @@ struct Contents {
   std::vector<Landmark> landmarks;    // by part
   std::vector<uint64_t> segmentParts; // by segment: parts before it
 };
+
+// Reads the files of a recording: a folder, or one segment (docs/recording.md). `known`: programs that it may be of, in
+// addition to those that it has. Fails if there is nothing to read, or no program for any of it.
+Result<Recording> readRecording(const std::string& path, std::vector<std::unique_ptr<compiler::Compiled>> known = {});
 
 } // namespace rung::replay

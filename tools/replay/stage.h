@@ -10,15 +10,13 @@
 
 #include "compiler/engines.h"
 #include "compiler/recompiler.h"
-#include "rtlib/change/forcing.h"
-#include "rtlib/record/player.h"
-#include "rtlib/run/instance.h"
 #include "tools/replay/flow.h"
+#include "tools/replay/player.h"
 #include "tools/replay/recording.h"
 
 namespace rung::replay {
 
-// A moment between two parts, from which playing can go on. It belongs to one program.
+// A moment between two parts, from which playing can continue. It belongs to one program.
 struct Moment {
   uint32_t program = 0;
   uint32_t segment = 0;
@@ -31,44 +29,51 @@ struct Moment {
   std::vector<uint8_t> events; // what a player plays to have the state
 };
 
-class Stage final : public runtime::PlayerOwner {
+// Whether the player has the state of these events now.
+bool playState(AnyPlayer& player, std::span<const uint8_t> events);
+
+class Stage {
 public:
-  static Result<std::unique_ptr<Stage>> make(const compiler::Compiled& compiled, compiler::EngineKind kind);
+  static Result<std::unique_ptr<Stage>> make(const compiler::Compiled& compiled, compiler::EngineKind kind,
+                                             runtime::RecordingMode mode);
 
   const compiler::Compiled& compiled() const { return compiled_; }
-  runtime::Instance& instance() { return *instance_; }
-  const runtime::Instance& instance() const { return *instance_; }
-  runtime::Player& player() { return *player_; }
-  const runtime::Player& player() const { return *player_; }
-
-  // The events by which another player gets the present state; nothing within a scan.
-  std::optional<std::vector<uint8_t>> state() const;
+  AnyPlayer& player() { return *player_; }
 
   FlowEngine& flowEngine();
   // The instance that runs rung by rung: after flow(), as that part left it.
-  runtime::Instance& flowInstance() { return *flowInstance_; }
-  // Plays one part from the moment, rung by rung; `events` is the rest of its segment. Null if there is no part.
+  runtime::Instance& flowInstance() { return flowPlayer_->instance(); }
+  // Plays one part from the moment, rung by rung; `events` is its segment. Null if there is no part.
   const Flow* flow(const Moment& from, std::span<const uint8_t> events, const FlowEngine::AfterRun& afterRun = {});
 
 private:
-  Stage(const compiler::Compiled& compiled, compiler::EngineKind kind) : compiled_(compiled), kind_(kind) {}
-  bool force(runtime::Instance& instance, std::span<const core::ForcedBits> bits) override;
+  // Code for forces.
+  struct FastOwner final : runtime::PlayerOwner {
+    explicit FastOwner(Stage& of) : stage(of) {}
+    std::optional<core::Code> codeFor(const runtime::Forcing& forcing) override;
+    Stage& stage;
+    std::unique_ptr<compiler::ForcedCode> code;
+  };
+  // The program's own: the observer holds the bits.
+  struct SlowOwner final : runtime::PlayerOwner {
+    explicit SlowOwner(Stage& of) : stage(of) {}
+    std::optional<core::Code> codeFor(const runtime::Forcing& forcing) override;
+    Stage& stage;
+  };
+
+  Stage(const compiler::Compiled& compiled, compiler::EngineKind kind, runtime::RecordingMode mode)
+      : compiled_(compiled), kind_(kind), mode_(mode) {}
 
   const compiler::Compiled& compiled_;
   compiler::EngineKind kind_;
+  runtime::RecordingMode mode_;
   compiler::EngineOptions options_;
   std::unique_ptr<runtime::Engine> engine_;
-  std::unique_ptr<runtime::Instance> instance_;
-  std::unique_ptr<runtime::Player> player_;
+  FastOwner fastOwner_{*this};
+  std::unique_ptr<AnyPlayer> player_;
   std::unique_ptr<FlowEngine> flowEngine_;
-  std::unique_ptr<runtime::Instance> flowInstance_;
-  std::unique_ptr<runtime::Player> flowPlayer_;
-  // Of the instances: those in effect.
-  struct InEffect {
-    std::unique_ptr<runtime::Forcing> forcing;
-    std::unique_ptr<compiler::ForcedCode> code;
-  };
-  InEffect fast_, slow_;
+  SlowOwner slowOwner_{*this};
+  std::unique_ptr<AnyPlayer> flowPlayer_;
 };
 
 } // namespace rung::replay

@@ -319,8 +319,9 @@ private:
     constexpr size_t kFew = 3;
     const std::string symbol = " " + name.substr(0, name.find(' ')) + " ";
     std::vector<std::string> sets;
-    for (const Note& note : past_.recording().notes) {
-      if (note.part + 1 != part || note.text.find("expect") != std::string::npos) continue;
+    for (const Landmark& note : past_.contents().landmarks) {
+      if (note.kind != Landmark::Kind::Note || note.part + 1 != part || note.text.find("expect") != std::string::npos)
+        continue;
       if (note.text.find(symbol) != std::string::npos) return note.text;
       if (note.text.find("set ") != std::string::npos) sets.push_back(note.text);
     }
@@ -440,7 +441,7 @@ private:
     add(operands, leaves, facts, runNumber);
     if (!operands.hasNames()) addDecider(operands, facts, runNumber);
     findSince(operands.all, part, facts);
-    // The one that changed last is the cause of the change; the chain goes on there.
+    // The one that changed last is the cause of the change; the chain continues there.
     std::ranges::stable_sort(operands.all, [](const Operand& a, const Operand& b) {
       return std::tuple(a.rank, a.since, a.leaf.alone) > std::tuple(b.rank, b.since, b.leaf.alone);
     });

@@ -39,7 +39,7 @@ struct Reason {
   bool isIndex = false;     // in the rung above: it determined the address
   bool computed = false;    // written at a computed address
   std::string note;         // such as the statement of a scenario that set it
-  // What decided; the one that changed last comes first, and the chain goes on with it.
+  // What decided; the one that changed last comes first, and the chain continues with it.
   std::vector<Reason> because;
 };
 

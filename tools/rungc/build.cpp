@@ -192,7 +192,7 @@ void addBuild(CommandLine& app, int& status) {
     if (options->out.empty()) options->out = compiler::productOf(*options->source.project, ".so");
     SourceManager sources;
     compiler::CompileRequest request = requestOf(*options);
-    request.keepBuilt = !options->noIr;
+    request.keepBuilt = request.marks = !options->noIr;
     if (options->source.project)
       options->bindings.insert(options->bindings.begin(), options->source.project->bindings.begin(),
                                options->source.project->bindings.end());

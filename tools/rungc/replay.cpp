@@ -19,6 +19,7 @@ namespace {
 
 struct ReplayOptions {
   std::string file;
+  SourceOptions source; // of the program, which the recording may lack
   std::optional<uint64_t> at;
   std::vector<std::string> show;
   std::string find;
@@ -42,12 +43,8 @@ void catchSignals() {
 }
 
 // A scenario is run and recorded in memory. On failure nothing, and `status` says why.
-std::optional<replay::Recording> openRecording(const ReplayOptions& options, int& status) {
-  if (!options.file.ends_with(".scn")) {
-    status = usageError(fmt::format("'{}' is not a scenario", options.file));
-    return std::nullopt;
-  }
-  Result<scenario::Scenario> scenario = scenario::readScenario(options.file);
+std::optional<replay::Recording> recordingOf(const std::string& file, int& status) {
+  Result<scenario::Scenario> scenario = scenario::readScenario(file);
   if (!scenario.ok()) {
     status = environmentError(scenario.error());
     return std::nullopt;
@@ -56,12 +53,32 @@ std::optional<replay::Recording> openRecording(const ReplayOptions& options, int
   Result<replay::RecordedScenario> recorded =
       replay::recordScenario(scenario.value(), {.engines = {compiler::EngineKind::Interp}});
   if (!recorded.ok()) {
-    status = environmentError(fmt::format("{}: {}", options.file, recorded.error()));
+    status = environmentError(fmt::format("{}: {}", file, recorded.error()));
     return std::nullopt;
   }
   for (const scenario::Problem& problem : recorded.value().result.problems)
     fmt::print("{}\n", scenario::textOf(problem));
   return std::move(recorded.value().recording);
+}
+
+std::optional<replay::Recording> openRecording(ReplayOptions& options, int& status) {
+  if (options.file.ends_with(".scn")) return recordingOf(options.file, status);
+  std::vector<std::unique_ptr<compiler::Compiled>> known;
+  SourceManager sources;
+  if (!options.source.files.empty()) {
+    compiler::CompileRequest request;
+    request.marks = request.keepBuilt = true;
+    std::optional<compiler::Compiled> compiled = compileSources(sources, options.source, std::move(request), status);
+    if (!compiled) return std::nullopt;
+    known.push_back(std::make_unique<compiler::Compiled>(std::move(*compiled)));
+  }
+  Result<replay::Recording> recording = replay::readRecording(options.file, std::move(known));
+  if (!recording.ok()) {
+    status = environmentError(recording.error());
+    return std::nullopt;
+  }
+  for (const std::string& problem : recording.value().problems) fmt::print(stderr, "rungc: {}\n", problem);
+  return std::move(recording).value();
 }
 
 int runAsked(const ReplayOptions& options, replay::Past& past, replay::Console& console) {
@@ -88,15 +105,15 @@ int runAsked(const ReplayOptions& options, replay::Past& past, replay::Console& 
     fmt::print("{}\n", text.value());
   }
   if (!options.exported.empty()) {
-    const std::string problem = console.exportTrace(options.exported, options.from.value_or(past.firstPart()),
-                                                    options.to.value_or(past.contents().parts), options.watch);
+    const std::string problem = console.exportTo(options.exported, options.from.value_or(past.firstPart()),
+                                                 options.to.value_or(past.contents().parts), options.watch);
     if (!problem.empty()) return usageError(problem);
     fmt::print("wrote {}\n", options.exported);
   }
   return kOk;
 }
 
-int runReplay(const ReplayOptions& options) {
+int runReplay(ReplayOptions& options) {
   if (const std::string wrong = listenProblem(options.listen); !wrong.empty()) return usageError(wrong);
   int status = kOk;
   const std::optional<replay::Recording> recording = openRecording(options, status);
@@ -117,16 +134,21 @@ int runReplay(const ReplayOptions& options) {
 } // namespace
 
 void addReplay(CommandLine& app, int& status) {
-  Command command =
-      app.add("replay", "Go through the past of a program, forwards and backwards: a scenario, as it ran");
+  Command command = app.add("replay", "Go through the past of a program, forwards and backwards");
   auto options = std::make_shared<ReplayOptions>();
-  command.option("RECORDING", options->file, "A scenario, which is run and recorded").required();
+  command
+      .option("RECORDING", options->file,
+              "The folder of a recording, one of its segments, or a scenario, which is run and recorded")
+      .required();
+  command.option("--source", options->source.files,
+                 "Sources of the program, if the recording does not have it; their hash must be that of the recording");
   command.option("--at", options->at, "Begin at the end of this scan; default: the last one, or where it failed");
   command.option("--show", options->show, "Print the values of these names there").oneValue();
   command.option("--find", options->find, "Print the scans after which this condition begins to hold");
   command.option("--most", options->most, "At most so many scans are found").showDefault();
   command.option("--why", options->why, "NAME or NAME@SCAN: print the chain from the value back to what it came from");
-  command.option("--export", options->exported, "Write values of each scan to FILE.vcd or FILE.csv");
+  command.option("--export", options->exported,
+                 "Write values of each scan to FILE.vcd or FILE.csv, or a scenario that does the same to FILE.scn");
   command.option("--from", options->from, "First scan of --export");
   command.option("--to", options->to, "Last scan of --export");
   command.option("--watch", options->watch, "Names for --export; default: all that the rungs use").oneValue();

@@ -15,6 +15,7 @@
 #include "rtlib/load/seal.h"
 #include "rtlib/load/so_engine.h"
 #include "rtlib/nc/config_key.h"
+#include "tools/replay/record_run.h"
 #include "tools/rungc/commands.h"
 #include "tools/rungc/retained_files.h"
 #include "tools/rungc/scenarios.h"
@@ -41,6 +42,7 @@ struct RunOptions {
   std::string scenarioFile;
   RunScenario scenario;
   std::string trace;
+  std::string record;
   bool prompt = false;
   bool web = false;
   std::string listen = kDefaultListen;
@@ -197,6 +199,7 @@ private:
       if (const std::string wrong = watch_.add(name, session_); !wrong.empty()) return usageError("--watch: " + wrong);
     session_.addObserver(watch_);
     if (const int status = openTrace(); status != kOk) return status;
+    if (const int status = openRecording(); status != kOk) return status;
     const bool asked = options_.prompt || options_.web || !options_.scenarioFile.empty();
     explainer_ = std::make_unique<scenario::Explainer>(session_, asked ? first().uses() : nullptr);
     session_.addObserver(*explainer_);
@@ -213,6 +216,17 @@ private:
     trace_ = std::move(trace).value();
     session_.addObserver(*trace_);
     return kOk;
+  }
+
+  int openRecording() try {
+    if (options_.record.empty()) return kOk;
+    const Result<const compiler::Compiled*> program = first().wanted();
+    if (!program.ok()) return environmentError("--record: " + program.error());
+    recorder_ = std::make_unique<replay::SessionRecorder>(session_, options_.record, *program.value());
+    session_.addObserver(*recorder_);
+    return kOk;
+  } catch (const std::runtime_error& error) {
+    return environmentError(error.what());
   }
 
   // ---- the run ----
@@ -385,6 +399,7 @@ private:
   };
   scenario::Watch watch_{print_};
   std::unique_ptr<RetainedFiles> retained_;
+  std::unique_ptr<replay::SessionRecorder> recorder_; // null: nothing is recorded
   std::unique_ptr<scenario::Trace> trace_;
   std::unique_ptr<scenario::Explainer> explainer_; // set once the session has started
 };
@@ -412,8 +427,8 @@ std::optional<Program> compileProgram(const RunOptions& options, const SourceOpt
   }
   SourceManager sources;
   compiler::CompileRequest request;
-  request.keepBuilt = options.prompt || options.web || !options.scenarioFile.empty(); // for forces
-  request.marks = options.web;
+  request.marks = options.web || !options.record.empty();
+  request.keepBuilt = request.marks || options.prompt || !options.scenarioFile.empty(); // for forces
   if (options.scenario.periodUs > 0) request.options.config["period_us"] = std::to_string(options.scenario.periodUs);
   Program program;
   program.compiled = compileChecked(sources, source, request, status);
@@ -500,6 +515,7 @@ void addRun(CommandLine& app, int& status) {
   command.option("--watch", options->watch, "Names whose changes are printed");
   command.option("--trace", options->trace,
                  "Write the values of the watched names, or of all names that the rungs use, to FILE.vcd or FILE.csv");
+  command.option("--record", options->record, "Record into this folder, for rungc replay");
   Option web =
       command
           .flag("--web", options->web,

@@ -14,6 +14,7 @@
 #include <thread>
 #include <utility>
 
+#include "tools/replay/record_run.h"
 #include "tools/rungc/commands.h"
 #include "tools/rungc/coverage.h"
 #include "tools/rungc/file_watch.h"
@@ -38,8 +39,8 @@ constexpr std::chrono::milliseconds kTick{200};
 
 class Pool {
 public:
-  Pool(const std::vector<std::string>& files, const scenario::RunOptions& options)
-      : files_(files), options_(options), results_(files.size()) {}
+  Pool(const std::vector<std::string>& files, const scenario::RunOptions& options, const std::string& record)
+      : files_(files), options_(options), record_(record), results_(files.size()) {}
 
   void run(unsigned threads, const PoolCalls& calls) {
     std::vector<std::jthread> workers;
@@ -53,11 +54,22 @@ public:
 private:
   void work() {
     for (size_t i = begin(); i < files_.size(); i = begin()) {
-      TestCase result = runOne(files_[i], options_);
+      scenario::RunOptions options = options_;
+      if (!record_.empty()) replay::recordInto(folderOf(files_[i]), options);
+      TestCase result = runOne(files_[i], options);
       const std::lock_guard lock(mutex_);
       results_[i] = std::move(result);
       changed_.notify_one();
     }
+  }
+
+  // The recording of one scenario is the folder itself; those of several have the paths of the scenarios in it.
+  std::string folderOf(const std::string& file) const {
+    if (files_.size() == 1) return record_;
+    std::filesystem::path folder(record_);
+    for (const std::filesystem::path& part : std::filesystem::path(file).relative_path().replace_extension())
+      if (part != "." && part != "..") folder /= part;
+    return folder.string();
   }
 
   size_t begin() {
@@ -81,15 +93,16 @@ private:
 
   const std::vector<std::string>& files_;
   const scenario::RunOptions& options_;
+  const std::string& record_;
   std::mutex mutex_; // protects the members below
   std::condition_variable changed_;
   std::vector<std::optional<TestCase>> results_;
   size_t next_ = 0;
 };
 
-void runAll(const std::vector<std::string>& files, const scenario::RunOptions& options, unsigned threads,
-            const PoolCalls& calls) {
-  Pool(files, options).run(threads, calls);
+void runAll(const std::vector<std::string>& files, const scenario::RunOptions& options, const std::string& record,
+            unsigned threads, const PoolCalls& calls) {
+  Pool(files, options, record).run(threads, calls);
 }
 
 // The command itself.
@@ -104,6 +117,7 @@ struct TestOptions {
   bool watchFiles = false;
   std::string color = "auto";
   std::string junit;
+  std::string record;
   std::string cxx;
   bool strict = false;
   std::string level = "2";
@@ -144,7 +158,7 @@ Outcome runOnce(const std::vector<std::string>& files, const TestOptions& option
     progress.show(fmt::format("{} of {}, {}: {}", outcome.tests.size() + 1, files.size(),
                               shownSeconds(progress.seconds()), file));
   };
-  runAll(files, run, options.threads, {finished, waiting});
+  runAll(files, run, options.record, options.threads, {finished, waiting});
   progress.clear();
   fmt::print("{}\n", summary(outcome.tests, files.size(), progress.seconds()));
   std::fflush(stdout);
@@ -248,6 +262,8 @@ void addTest(CommandLine& app, int& status) {
   addColorOption(command, options->color, "Colours of ok and FAILED");
   options->trace.addTo(command);
   command.option("--junit", options->junit, "Write the results as JUnit XML");
+  command.option("--record", options->record,
+                 "Record into this folder, for rungc replay; of several scenarios each into its own folder in it");
   command.option("--cxx", options->cxx, "C++ compiler of the engine cpp");
   command.option("--cache", options->cache,
                  "Folder for compiled code, so that unchanged programs are not compiled again");

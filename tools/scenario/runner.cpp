@@ -57,8 +57,10 @@ private:
   // All problems before the first scan are reported together.
   void compileAndRun() {
     const bool observed = options_.engine.observer != nullptr;
-    const CompileSettings settings{
-        .strict = options_.strict, .instrument = options_.instrument, .marks = observed, .optimise = !observed};
+    const CompileSettings settings{.strict = options_.strict,
+                                   .instrument = options_.instrument,
+                                   .marks = observed || options_.marks,
+                                   .optimise = !observed};
     CompileStep step = compileProgram(scenario_, options_.programs, settings);
     note(step);
     if (options_.strict && result_.expectsNothing) fail(scenario_.statements[0], kExpectsNothing);

@@ -17,6 +17,7 @@ struct RunOptions {
   compiler::EngineOptions engine;
   bool instrument = false; // the program has profile counters
   bool strict = false;
+  bool marks = false;                // the program is compiled with marks (compiler::CompileRequest::marks)
   std::vector<std::string> programs; // if not empty, they replace the scenario's program statement
   EngineStore* store = nullptr;      // keeps engines for later scenarios; must outlive the run
   // Called between the start and the first statement, to attach observers, which must outlive the run. Returns "" or

@@ -33,7 +33,7 @@ std::string said(const std::string& file, const std::vector<std::string>& lines)
   return text;
 }
 
-TEST(Replay, SaysWhatTheGoldensHold) {
+TEST(ReplayGolden, SaysWhatWasRecorded) {
   test::Golden golden("tests/golden/replay", {".replay"});
   for (const std::filesystem::path& input : golden.inputs()) {
     std::istringstream lines(golden.read(input));

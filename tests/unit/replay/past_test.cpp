@@ -26,15 +26,11 @@ struct Truth final : scenario::Observer {
   std::vector<int64_t> clocks;
 };
 
-// Bytes that the program writes and nobody else.
+// Bytes that rungs write.
 std::vector<uint8_t> written(std::span<const uint8_t> block, const rung_program& program) {
   std::vector<uint8_t> out;
-  for (uint32_t i = 0; i < program.space_count; ++i) {
-    const rung_space& space = program.spaces[i];
-    if ((space.flags & (RUNG_SPACE_INPUT | RUNG_SPACE_OUTPUT)) != 0) continue;
-    const core::Memory memory(program, const_cast<uint8_t*>(block.data())); // which is only read
-    for (uint32_t byte = 0; byte < space.byte_count; ++byte) out.push_back(memory.readByte(i, byte));
-  }
+  for (const rung_written& of : std::span(program.writes, program.write_count))
+    for (uint32_t i = 0; i < of.size; ++i) out.push_back(block[of.offset + i] & of.mask);
   return out;
 }
 

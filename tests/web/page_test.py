@@ -117,6 +117,15 @@ class Page(unittest.TestCase):
         self.browser.click("#tab-watch")
         self.browser.find("#watch input").send_keys("SPINDLE_CW", Keys.ENTER)
         self.browser.until("return document.querySelector('#watch td.value')?.textContent === '0'", "a value")
+        self.pause()
+        newest = self.scan()
+        self.browser.click("#trace")
+        self.browser.until("return document.querySelector('.lines svg .wave')", "a line")
+        self.assertEqual(self.scan(), newest)
+        self.browser.js("const s = document.querySelector('.lines svg'), b = s.getBoundingClientRect();"
+                        "s.dispatchEvent(new MouseEvent('click', {clientX: b.left + b.width - 1}))")
+        self.browser.until("return document.getElementById('scan').textContent === String(arguments[0])", "the last scan of it", newest)
+        self.run_on()
         self.browser.js("[...document.querySelectorAll('#watch button')].find(b => b.textContent === 'Remove').click()")
         self.browser.until("return document.querySelectorAll('#watch tbody tr').length === 0", "removed")
 

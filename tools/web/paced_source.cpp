@@ -142,6 +142,24 @@ Result<Why> PacedSource::why(const std::string& name) {
   return hand<Why>([this, name] { return explain(name); });
 }
 
+Result<ScanTrace> PacedSource::trace(const std::vector<std::string>& names, uint64_t scans) {
+  return hand<ScanTrace>([this, names, scans] { return readTrace(names, scans); });
+}
+
+// Goes back and comes to the same scan again.
+Result<ScanTrace> PacedSource::readTrace(const std::vector<std::string>& names, uint64_t scans) {
+  const uint64_t here = shownScan();
+  const uint64_t wanted = here > scans ? here - scans + 1 : 1;
+  ScanTrace trace{std::max(wanted, std::min(firstScan(), here)), std::vector<std::vector<std::string>>(names.size())};
+  if (const auto there = seek(trace.firstScan); !there.ok()) return there.failure();
+  for (uint64_t scan = trace.firstScan; scan <= here; ++scan) {
+    if (scan > trace.firstScan) (void)nextScan();
+    for (size_t i = 0; i < names.size(); ++i) trace.values[i].push_back(valueOf(names[i]));
+  }
+  if (const auto back = seek(here); !back.ok()) return back.failure();
+  return trace;
+}
+
 // ---- pages ---------------------------------------------------------------------------------------------------------
 
 std::set<std::string> PacedSource::followed() {

@@ -32,6 +32,7 @@ public:
   Result<std::string> execute(const Order& order) override;
   std::vector<Event> events(uint64_t after) override;
   Result<Why> why(const std::string& name) override;
+  Result<ScanTrace> trace(const std::vector<std::string>& names, uint64_t scans) override;
 
 protected:
   // All of the following are called by the thread of run().
@@ -39,6 +40,11 @@ protected:
   // Continues by a scan. False: there is none, and the source pauses.
   virtual bool nextScan() = 0;
   virtual int64_t nowUs() const = 0;
+  virtual uint64_t shownScan() const = 0;
+  virtual uint64_t firstScan() const = 0; // how far back it can go
+  // Shows another scan, between the first and the last one.
+  virtual Result<std::string> seek(uint64_t scan) = 0;
+  virtual std::string valueOf(const std::string& name) const = 0; // "": there is no such name
   virtual Result<std::string> carryOut(const Order& order) = 0;
   virtual Result<Why> explain(const std::string& name) = 0;
   // All but the revision and the number of the last event.
@@ -60,6 +66,7 @@ private:
   using Task = std::function<void(bool runs)>;
   template <class T>
   Result<T> hand(std::function<Result<T>()> act);
+  Result<ScanTrace> readTrace(const std::vector<std::string>& names, uint64_t scans);
   bool takeTasks(std::unique_lock<std::mutex>& lock);
   std::set<std::string> followed();
   void publish(const std::set<std::string>& names);

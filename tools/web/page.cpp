@@ -17,10 +17,12 @@ namespace {
 using nlohmann::json;
 using namespace std::chrono_literals;
 
-constexpr uint32_t kMostRows = 120;  // of one answer
-constexpr size_t kMostNames = 200;   // that one page follows by name
-constexpr auto kWait = 1000ms;       // for a picture newer than the last one
-constexpr size_t kMostPageName = 64; // characters
+constexpr uint32_t kMostRows = 120;   // of one answer
+constexpr size_t kMostNames = 200;    // that one page follows by name
+constexpr size_t kMostTraced = 16;    // names of a trace
+constexpr uint64_t kMostScans = 2000; // of a trace
+constexpr auto kWait = 1000ms;        // for a picture newer than the last one
+constexpr size_t kMostPageName = 64;  // characters
 
 Response textOf(int status, std::string text) { return {status, "text/plain", std::move(text) + "\n"}; }
 
@@ -34,6 +36,18 @@ uint64_t numberOf(const Request& request, std::string_view name) {
   uint64_t number = 0;
   (void)std::from_chars(text.data(), text.data() + text.size(), number);
   return number;
+}
+
+// The names that are asked for, one a line.
+std::vector<std::string> wordsOf(const Request& request, size_t most) {
+  std::vector<std::string> names;
+  const std::string asked = queryValue(request.query, "names");
+  for (std::string_view rest = asked; !rest.empty() && names.size() < most;) {
+    const size_t at = std::min(rest.find('\n'), rest.size());
+    names.emplace_back(rest.substr(0, at));
+    rest.remove_prefix(std::min(at + 1, rest.size()));
+  }
+  return names;
 }
 
 std::string_view typeOf(std::string_view name) {
@@ -121,13 +135,7 @@ Response Page::picture(const Request& request) {
   const auto all = static_cast<uint64_t>(program_.rows().size());
   const uint64_t first = std::min(numberOf(request, "from"), all);
   const uint64_t end = std::min({numberOf(request, "to"), all, first + kMostRows});
-  std::vector<std::string> names;
-  std::string asked = queryValue(request.query, "names");
-  for (std::string_view rest = asked; !rest.empty() && names.size() < kMostNames;) {
-    const size_t at = std::min(rest.find('\n'), rest.size());
-    names.emplace_back(rest.substr(0, at));
-    rest.remove_prefix(std::min(at + 1, rest.size()));
-  }
+  std::vector<std::string> names = wordsOf(request, kMostNames);
   const size_t watched = names.size();
   std::vector<std::pair<uint64_t, ShownProgram::ShownValue>> shown;
   for (uint64_t row = first; row < end; ++row)
@@ -183,6 +191,13 @@ Response Page::why(const Request& request) {
   return jsonOf({{"why", why.value().text}, {"steps", std::move(steps)}});
 }
 
+Response Page::trace(const Request& request) {
+  const Result<ScanTrace> trace =
+      source_.trace(wordsOf(request, kMostTraced), std::min(numberOf(request, "scans"), kMostScans));
+  if (!trace.ok()) return textOf(409, trace.error());
+  return jsonOf({{"first", trace.value().firstScan}, {"values", trace.value().values}});
+}
+
 Response Page::order(const Request& request) {
   const json asked = json::parse(request.body, nullptr, false);
   if (!asked.is_object()) return textOf(400, "an order is a JSON object");
@@ -219,6 +234,7 @@ Response Page::respond(const Request& request, const std::function<std::string()
   if (request.path == "/api/names") return names();
   if (request.path == "/api/picture") return picture(request);
   if (request.path == "/api/events") return events(request);
+  if (request.path == "/api/trace") return trace(request);
   if (request.path == "/api/why") {
     return why(request);
   }

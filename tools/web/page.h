@@ -24,6 +24,7 @@ private:
   Response picture(const Request& request);
   Response events(const Request& request);
   Response why(const Request& request);
+  Response trace(const Request& request);
   Response order(const Request& request);
 
   const ShownProgram& program_;

@@ -44,7 +44,7 @@ void PastSource::readEvents() {
 }
 
 Result<std::string> PastSource::seek(uint64_t part) {
-  part = std::clamp(part, std::min(past_.firstPart() + 1, past_.contents().parts), past_.contents().parts);
+  part = std::clamp(part, firstScan(), past_.contents().parts);
   if (const std::string problem = past_.goTo(part); !problem.empty()) return failure(problem);
   return fmt::format("scan {}", part);
 }
@@ -105,6 +105,12 @@ Result<Why> PastSource::explain(const std::string& name) {
   return why;
 }
 
+std::string PastSource::valueOf(const std::string& name) const {
+  const auto place = nc_->readPlace(past_.instance().program(), name);
+  if (!place) return {};
+  return scenario::showShort(scenario::readValue(past_.instance(), nc_->control(), *place, false));
+}
+
 void PastSource::fill(Picture& picture, const std::set<std::string>& names) {
   picture.scan = past_.part();
   picture.us = nowUs();
@@ -113,11 +119,9 @@ void PastSource::fill(Picture& picture, const std::set<std::string>& names) {
   if (faulted) picture.fault = past_.instance().faultText();
   if (const replay::Flow* flow = past_.flow()) picture.elements = states_.of(*flow);
   for (const std::string& name : names)
-    if (const auto place = nc_->readPlace(past_.instance().program(), name))
-      picture.values.emplace(name,
-                             scenario::showShort(scenario::readValue(past_.instance(), nc_->control(), *place, false)));
+    if (std::string value = valueOf(name); !value.empty()) picture.values.emplace(name, std::move(value));
   picture.messages = messagesOf(past_.instance(), nc_->control());
-  picture.firstScan = std::min(past_.firstPart() + 1, past_.contents().parts);
+  picture.firstScan = firstScan();
   picture.lastScan = past_.contents().parts;
 }
 

@@ -1,5 +1,6 @@
 // A recording as what the page shows.
 #pragma once
+#include <algorithm>
 #include <memory>
 #include <set>
 #include <string>
@@ -21,11 +22,14 @@ public:
 private:
   bool nextScan() override;
   int64_t nowUs() const override { return past_.instance().nowUs(); }
+  uint64_t shownScan() const override { return past_.part(); }
+  uint64_t firstScan() const override { return std::min(past_.firstPart() + 1, past_.contents().parts); }
+  Result<std::string> seek(uint64_t part) override;
+  std::string valueOf(const std::string& name) const override;
   Result<std::string> carryOut(const Order& order) override;
   Result<Why> explain(const std::string& name) override;
   void fill(Picture& picture, const std::set<std::string>& names) override;
 
-  Result<std::string> seek(uint64_t part);
   void readEvents();
 
   void addSteps(const replay::Reason& reason, uint32_t depth, std::vector<WhyStep>& steps);

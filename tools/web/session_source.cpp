@@ -105,18 +105,16 @@ void SessionSource::keepMoment() {
 // Back to a moment before the scan, and forwards again with what was done meanwhile, so that its flow is seen again.
 Result<std::string> SessionSource::seek(uint64_t scan) {
   if (moments_.empty()) return failure("the program has not kept a moment to which it could go back");
-  scan = std::clamp(scan, std::min(moments_.front().scan + 1, last_), last_);
-  if (scan == scan_) return fmt::format("scan {}", scan);
-  const auto after = std::ranges::lower_bound(moments_, scan, {}, &Moment::scan);
-  const Moment& from = after == moments_.begin() ? *after : *std::prev(after);
-  if (from.scan > scan_ || scan < scan_) {
-    if (const std::string problem = statement("restore " + from.name); !problem.empty()) return failure(problem);
-    scan_ = from.scan;
-    nextDone_ = from.statements;
-  }
-  while (scan_ < scan) {
-    repeat();
-    oneScan();
+  scan = std::clamp(scan, firstScan(), last_);
+  if (scan != scan_) {
+    const auto after = std::ranges::lower_bound(moments_, scan, {}, &Moment::scan);
+    const Moment& from = after == moments_.begin() ? *after : *std::prev(after);
+    if (from.scan > scan_ || scan < scan_) {
+      if (const std::string problem = statement("restore " + from.name); !problem.empty()) return failure(problem);
+      scan_ = from.scan;
+      nextDone_ = from.statements;
+    }
+    while (scan_ < scan) nextScan();
   }
   if (scan_ == last_) repeat();
   return fmt::format("scan {}", scan);
@@ -138,6 +136,11 @@ std::vector<ForcedCell> SessionSource::forces() {
   return cells;
 }
 
+std::string SessionSource::valueOf(const std::string& name) const {
+  const Result<scenario::Reading> reading = scenario::readName(session_.instance(), session_.nc(), name, false);
+  return reading.ok() ? scenario::showShort(reading.value()) : "";
+}
+
 void SessionSource::fill(Picture& picture, const std::set<std::string>& names) {
   picture.scan = scan_;
   picture.us = session_.nowUs();
@@ -148,13 +151,11 @@ void SessionSource::fill(Picture& picture, const std::set<std::string>& names) {
                                 : RunState::Paused;
   if (faulted) picture.fault = session_.instance().faultText();
   picture.elements = states_.of(engine_.flow());
-  for (const std::string& name : names) {
-    const Result<scenario::Reading> reading = scenario::readName(session_.instance(), session_.nc(), name, false);
-    if (reading.ok()) picture.values.emplace(name, scenario::showShort(reading.value()));
-  }
+  for (const std::string& name : names)
+    if (std::string value = valueOf(name); !value.empty()) picture.values.emplace(name, std::move(value));
   picture.messages = messagesOf(session_.instance(), session_.nc().control());
   picture.forces = forces();
-  picture.firstScan = moments_.empty() ? scan_ : std::min(moments_.front().scan + 1, last_);
+  picture.firstScan = firstScan();
   picture.lastScan = last_;
 }
 

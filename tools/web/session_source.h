@@ -1,5 +1,6 @@
 // A program on the interpreter in this process, with its simulated machine, as what the page shows.
 #pragma once
+#include <algorithm>
 #include <deque>
 #include <set>
 #include <string>
@@ -41,12 +42,15 @@ private:
 
   bool nextScan() override;
   int64_t nowUs() const override { return session_.nowUs(); }
+  uint64_t shownScan() const override { return scan_; }
+  uint64_t firstScan() const override { return moments_.empty() ? scan_ : std::min(moments_.front().scan + 1, last_); }
+  Result<std::string> seek(uint64_t scan) override;
+  std::string valueOf(const std::string& name) const override;
   Result<std::string> carryOut(const Order& order) override;
   Result<Why> explain(const std::string& name) override;
   void fill(Picture& picture, const std::set<std::string>& names) override;
 
   Result<std::string> write(const std::string& line, const char* kind);
-  Result<std::string> seek(uint64_t scan);
   Result<std::string> step(int64_t scans);
   std::string statement(const std::string& line);
   void oneScan();

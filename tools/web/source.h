@@ -72,6 +72,12 @@ struct Why {
   std::vector<WhyStep> steps; // empty: the text is all
 };
 
+// Values of names scan by scan, up to the scan that is shown.
+struct ScanTrace {
+  uint64_t firstScan = 0;
+  std::vector<std::vector<std::string>> values; // by name, then by scan
+};
+
 // Any thread may call these.
 class Source {
 public:
@@ -87,6 +93,8 @@ public:
   virtual std::vector<Event> events(uint64_t after) = 0;
   // Why the value of a name is what it is, at the picture that is shown.
   virtual Result<Why> why(const std::string& name) = 0;
+  // The values of these names in the last `scans` scans; a name that does not exist has the value "".
+  virtual Result<ScanTrace> trace(const std::vector<std::string>& names, uint64_t scans) = 0;
   // Whether there is a newest scan that becomes older: false for what has ended.
   virtual bool isLive() const = 0;
   // Whether pages may write: "" or why not.

@@ -3,6 +3,7 @@ import {get, post, Pictures} from './link.js';
 import {isNarrow, Pane} from './pane.js';
 import {Tree} from './tree.js';
 import {Find, Names} from './find.js';
+import {Trace} from './trace.js';
 import {Detail, History, make, Terminals, timeText, Watch, Writer} from './panels.js';
 
 const by = id => document.getElementById(id);
@@ -121,6 +122,7 @@ async function start() {
     }
   });
   watch.fill();
+  new Trace(by('watch'), watch, seek, tell);
 
   // What the next pictures must have.
   function follow() {

@@ -35,6 +35,8 @@ find_path(RUNG_SECCOMP_INCLUDE seccomp.h REQUIRED)
 find_library(RUNG_SECCOMP_LIBRARY seccomp REQUIRED)
 find_path(RUNG_MODBUS_INCLUDE modbus.h PATH_SUFFIXES modbus REQUIRED)
 find_library(RUNG_MODBUS_LIBRARY modbus REQUIRED)
+find_path(RUNG_CIVETWEB_INCLUDE civetweb.h REQUIRED)
+find_library(RUNG_CIVETWEB_LIBRARY civetweb REQUIRED)
 find_path(RUNG_SYSTEMD_INCLUDE systemd/sd-daemon.h REQUIRED)
 find_library(RUNG_SYSTEMD_LIBRARY systemd REQUIRED)
 list(APPEND CMAKE_PREFIX_PATH /usr/lib/llvm-19) # LLD's config file is found only with it
@@ -55,6 +57,11 @@ target_link_libraries(rung_ncurses INTERFACE "${RUNG_NCURSES_LIBRARY}" "${RUNG_T
 add_library(rung_modbus INTERFACE)
 target_include_directories(rung_modbus SYSTEM INTERFACE "${RUNG_MODBUS_INCLUDE}")
 target_link_libraries(rung_modbus INTERFACE "${RUNG_MODBUS_LIBRARY}")
+
+# The web server of the live page; its package has no CMake config file.
+add_library(rung_civetweb INTERFACE)
+target_include_directories(rung_civetweb SYSTEM INTERFACE "${RUNG_CIVETWEB_INCLUDE}")
+target_link_libraries(rung_civetweb INTERFACE "${RUNG_CIVETWEB_LIBRARY}")
 
 # The service manager; its package has no CMake config file.
 add_library(rung_systemd INTERFACE)

@@ -63,6 +63,7 @@ FOREIGN = {
     "clang/": ("codegen/clang",),
     "fmt/": ("ir", "frontend", "codegen", "compiler", "machine", "sim", "tools"),
     "nlohmann/": ("ir/support", "codegen", "compiler", "machine", "sim/plugin", "tools"),
+    "civetweb.h": ("tools/web",),
     "CLI/": ("machine/command-line",),
     "ncurses.h": ("machine/rungctl",),
     "expat.h": ("machine/host",),
@@ -91,7 +92,7 @@ NAMESPACES = {
     "machine/host": "host", "machine/io": "io", "machine/control": "control", "machine/compile": "compile", "machine/rung-compile": "rung_compile",
     "machine/command-line": "cli", "machine/rung-run": "rung_run", "machine/rung-hal": "hal", "machine/rungctl": "rungctl",
     "sim": "sim", "sim/plugin": "rung_run",  # what rung-run declares, it defines
-    "tools/rungc": "rungc", "tools/scenario": "scenario", "tools/report": "report", "tools/replay": "replay", "tools/view": "view", "tools/bind": "bind", "tools/imported": "imported",
+    "tools/rungc": "rungc", "tools/scenario": "scenario", "tools/report": "report", "tools/replay": "replay", "tools/view": "view", "tools/web": "web", "tools/bind": "bind", "tools/imported": "imported",
     "tools/bench": "bench",
 }
 NAMESPACE = re.compile(r"^namespace rung(?:::([\w:]+))?(?= *\{)", re.MULTILINE)

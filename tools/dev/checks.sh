@@ -190,6 +190,13 @@ check_fanuc() { # programs of others, which FANUC_PROGRAMS names
   python3 tests/fanuc-programs/fanuc_programs_test.py build/bin
 }
 
+check_web() { # the live page, in Chromium
+  build_some rungc
+  /usr/bin/python3 tests/web/page_test.py build/bin/rungc
+  /usr/bin/python3 tests/web/flow_test.py build/bin/rungc 1000
+  /usr/bin/python3 tests/web/large_test.py build/bin/rungc
+}
+
 check_connections() { # mbpoll and pymodbus: values, and counted overruns
   build_some "${commands[@]}"
   /usr/bin/python3 tests/connections/long_run.py build/bin 600

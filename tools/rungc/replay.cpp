@@ -10,6 +10,7 @@
 #include "tools/replay/past.h"
 #include "tools/replay/record_run.h"
 #include "tools/rungc/commands.h"
+#include "tools/rungc/web.h"
 #include "tools/scenario/in_project.h"
 #include "tools/scenario/prompt.h"
 
@@ -28,6 +29,8 @@ struct ReplayOptions {
   std::vector<std::string> watch;
   unsigned most = 100;
   bool json = false;
+  bool web = false;
+  std::string listen = kDefaultListen;
 };
 
 scenario::Signal gReplaySignal = 0; // the only variable that the signal handler writes
@@ -111,6 +114,7 @@ int runAsked(const ReplayOptions& options, replay::Past& past, replay::Console& 
 }
 
 int runReplay(ReplayOptions& options) {
+  if (const std::string wrong = listenProblem(options.listen); !wrong.empty()) return usageError(wrong);
   int status = kOk;
   const std::optional<replay::Recording> recording = openRecording(options, status);
   if (!recording) return status;
@@ -123,6 +127,7 @@ int runReplay(ReplayOptions& options) {
       !options.show.empty() || !options.find.empty() || !options.why.empty() || !options.exported.empty();
   if (asked) return runAsked(options, *past.value(), console);
   catchSignals();
+  if (options.web) return servePast({}, options.listen, *past.value(), [] { return gReplaySignal != 0; });
   return scenario::runPrompt(console, gReplaySignal, [] {}) ? int{kOk} : int{kWrong};
 }
 
@@ -148,6 +153,10 @@ void addReplay(CommandLine& app, int& status) {
   command.option("--to", options->to, "Last scan of --export");
   command.option("--watch", options->watch, "Names for --export; default: all that the rungs use").oneValue();
   command.flag("--json", options->json, "JSON from --find and --why");
+  Option web = command.flag("--web", options->web, "Show it in a browser: prints a link");
+  command.option("--listen", options->listen, "Address for --web, such as 8080 or 192.168.0.5:8080")
+      .needs(web)
+      .showDefault();
   command.onRun([options, &status] { status = runReplay(*options); });
 }
 

@@ -19,11 +19,13 @@
 #include "tools/rungc/commands.h"
 #include "tools/rungc/retained_files.h"
 #include "tools/rungc/scenarios.h"
+#include "tools/rungc/web.h"
 #include "tools/scenario/compile_step.h"
 #include "tools/scenario/console.h"
 #include "tools/scenario/prompt.h"
 #include "tools/scenario/trace.h"
 #include "tools/scenario/words.h"
+#include "tools/web/session_source.h"
 
 namespace rung::rungc {
 namespace {
@@ -42,6 +44,8 @@ struct RunOptions {
   std::string trace;
   std::string record;
   bool prompt = false;
+  bool web = false;
+  std::string listen = kDefaultListen;
   bool realtime = false;
   runtime::RealTimeOptions thread; // for a real-time run
   bool debugger = false;
@@ -76,9 +80,11 @@ void catchSignals() {
 struct Program {
   std::optional<compiler::Compiled> compiled; // nothing for a shared object
   std::unique_ptr<runtime::Engine> engine;    // destroyed before `compiled`
+  std::unique_ptr<replay::FlowEngine> flow;   // in place of `engine`, for the page
   const runtime::SoEngine* object = nullptr;  // the same engine, if it is a shared object
   std::optional<compiler::Compiled> carried;  // of a shared object, its embedded IR, loaded on first use
 
+  runtime::Engine& runs() const { return flow ? flow->engine() : *engine; }
   const ir::Uses* uses() const { return compiled ? compiled->uses.get() : nullptr; }
   Result<const compiler::Compiled*> wanted();
 };
@@ -121,8 +127,11 @@ public:
       : options_(options), session_("", options.realtime ? sim::Clock::Machine : sim::Clock::Virtual),
         recording_(startOf(options, program.compiled.has_value())) {
     programs_.push_back(std::move(program));
-    session_.addEngine(*first().engine);
-    session_.setCompiled([this] { return first().wanted(); });
+    session_.addEngine(first().runs());
+    if (options.web)
+      web::observeForces(session_, *first().flow);
+    else
+      session_.setCompiled([this] { return first().wanted(); });
     session_.setMakeProgram([this](const scenario::Statement& s) { return next(s); });
   }
 
@@ -191,7 +200,7 @@ private:
     session_.addObserver(watch_);
     if (const int status = openTrace(); status != kOk) return status;
     if (const int status = openRecording(); status != kOk) return status;
-    const bool asked = options_.prompt || !options_.scenarioFile.empty();
+    const bool asked = options_.prompt || options_.web || !options_.scenarioFile.empty();
     explainer_ = std::make_unique<scenario::Explainer>(session_, asked ? first().uses() : nullptr);
     session_.addObserver(*explainer_);
     return kOk;
@@ -228,6 +237,7 @@ private:
     scenario::Console console(session_, watch_, recording_, *explainer_, print_);
     if (const int status = setInputs(); status != kOk) return status;
     int status = runScenario(console);
+    if (options_.web) return status == kOk ? showPage() : status;
     if (status == kOk) status = runScans(console);
     if (!options_.prompt || gSignal == SIGTERM) return status;
     gSignal = 0;
@@ -289,6 +299,17 @@ private:
     return kOk;
   }
 
+  // Until the user stops it.
+  int showPage() {
+    if (&session_.instance().program() != &first().runs().program())
+      return environmentError("the scenario has replaced the program, whose rungs the page would show");
+    session_.setUnattended();
+    session_.setInterrupt({});
+    const std::string title = options_.source.project ? options_.source.project->name : "";
+    return serveSession(title, options_.listen, *first().compiled, session_, *explainer_, *first().flow,
+                        [] { return gSignal != 0; });
+  }
+
   int runRealTime(const scenario::Statement& end) {
     const runtime::RealTimeThread thread(options_.thread);
     if (!thread.problem().empty()) return environmentError(thread.problem());
@@ -314,7 +335,7 @@ private:
     if (!program) return failure("the running program has not changed");
     programs_.push_back(std::move(*program));
     Program& next = programs_.back();
-    return scenario::NextProgram{{next.engine.get()}, next.uses(), [&next] { return next.wanted(); }};
+    return scenario::NextProgram{{&next.runs()}, next.uses(), [&next] { return next.wanted(); }};
   }
 
   // Checks the dialect that the sources declare.
@@ -341,13 +362,13 @@ private:
     progress_.clear();
     if (!options_.source.quiet)
       fmt::print(out_, "{} scan{}, {} on the program's clock, engine {}\n", session_.scans(),
-                 session_.scans() == 1 ? "" : "s", longText(session_.nowUs()), first().engine->name());
+                 session_.scans() == 1 ? "" : "s", longText(session_.nowUs()), first().runs().name());
     if (!session_.unexpectedFault().empty()) {
       warn_(scenario::faultLine(session_.instance()));
       status = kWrong;
     }
     for (const Program& program : programs_)
-      if (const std::string trouble = compiler::codeTrouble(*program.engine); !trouble.empty()) warn_(trouble);
+      if (const std::string trouble = compiler::codeTrouble(program.runs()); !trouble.empty()) warn_(trouble);
     // Takes precedence over other failures: the run may have been right.
     if (retained_) status = finishRetained(status);
     if (trace_)
@@ -406,9 +427,8 @@ std::optional<Program> compileProgram(const RunOptions& options, const SourceOpt
   }
   SourceManager sources;
   compiler::CompileRequest request;
-  request.marks = !options.record.empty();
-  request.keepBuilt =
-      request.marks || options.prompt || !options.scenarioFile.empty(); // for forces by the prompt or a scenario
+  request.marks = options.web || !options.record.empty();
+  request.keepBuilt = request.marks || options.prompt || !options.scenarioFile.empty(); // for forces
   if (options.scenario.periodUs > 0) request.options.config["period_us"] = std::to_string(options.scenario.periodUs);
   Program program;
   program.compiled = compileChecked(sources, source, request, status);
@@ -418,6 +438,10 @@ std::optional<Program> compileProgram(const RunOptions& options, const SourceOpt
   engineOptions.optimise = options.level != "0";
   engineOptions.cacheFolder = options.cache;
   engineOptions.virtualClock = !options.realtime;
+  if (options.web) {
+    program.flow = std::make_unique<replay::FlowEngine>(*program.compiled);
+    return program;
+  }
   Result<std::unique_ptr<runtime::Engine>> engine = [&] {
     const scenario::Working working("compiling to machine code");
     return compiler::makeEngine(*kind, *program.compiled, engineOptions);
@@ -435,6 +459,15 @@ std::optional<Program> makeProgram(const RunOptions& options, const SourceOption
                                       : compileProgram(options, source, status);
 }
 
+// "" or why there can be no page.
+std::string webProblem(const RunOptions& options) {
+  if (isSharedObject(options.source.files))
+    return "--web shows the rungs of sources, and this is a shared object: run its sources";
+  if (!options.engine.empty() && options.engine != "interp")
+    return fmt::format("--web runs on the interpreter, not on '{}'", options.engine);
+  return listenProblem(options.listen);
+}
+
 int runProgram(RunOptions& options) {
   const bool piped = std::ranges::find(options.source.files, "-") != options.source.files.end();
   if (piped && options.prompt && isatty(STDIN_FILENO) == 0)
@@ -447,6 +480,8 @@ int runProgram(RunOptions& options) {
   if (!options.trace.empty())
     if (const std::string wrong = scenario::traceFileProblem(options.trace); !wrong.empty())
       return usageError("--trace: " + wrong);
+  if (options.web)
+    if (const std::string wrong = webProblem(options); !wrong.empty()) return usageError(wrong);
   int status = kOk;
   auto config = configPairs(options.source.config, status);
   if (!config) return status;
@@ -481,8 +516,19 @@ void addRun(CommandLine& app, int& status) {
   command.option("--trace", options->trace,
                  "Write the values of the watched names, or of all names that the rungs use, to FILE.vcd or FILE.csv");
   command.option("--record", options->record, "Record into this folder, for rungc replay");
-  Option realtime =
-      command.flag("--realtime", options->realtime, "Run on the computer's clock").excludes(scenario).excludes(prompt);
+  Option web =
+      command
+          .flag("--web", options->web,
+                "Then show the program in a browser: prints a link; runs at the pace of the program's clock on "
+                "the interpreter")
+          .excludes(prompt);
+  command.option("--listen", options->listen, "Address for --web, such as 8080 or 192.168.0.5:8080")
+      .needs(web)
+      .showDefault();
+  Option realtime = command.flag("--realtime", options->realtime, "Run on the computer's clock")
+                        .excludes(scenario)
+                        .excludes(prompt)
+                        .excludes(web);
   command
       .option("--priority", options->thread.priority,
               "Real-time priority of the run, 1 to 99 (SCHED_FIFO); default: ordinary scheduling")

@@ -58,6 +58,13 @@ struct BandRow {
   int wire = 0; // y
 };
 
+// Only places have values that change.
+bool hasValue(const Operand& operand) { return operand.link.to == Link::To::Name; }
+
+int addressWidth(const Operand& operand) {
+  return operand.address.empty() ? 0 : kPad + widthOf(operand.address, Style::Address);
+}
+
 int roundUp(int value, int step) { return (value + step - 1) / step * step; }
 
 int noteWidth(const std::vector<std::string>& lines, Style style) {
@@ -104,7 +111,8 @@ LinkedText underline(const Cell& cell) {
 
 class Layout {
 public:
-  explicit Layout(const Sheet& sheet) : sheet_(sheet), left_(sheet.cells.size()), bands_(sheet.cells.size()) {
+  Layout(const Sheet& sheet, int valueSpace)
+      : sheet_(sheet), valueSpace_(valueSpace), left_(sheet.cells.size()), bands_(sheet.cells.size()) {
     for (const Cell& cell : sheet.cells) measures_.push_back(measure(cell));
     alignBoxes();
     placeColumns();
@@ -139,7 +147,11 @@ private:
   void drawJoint(uint32_t cell);
   void drawSymbol(uint32_t cell);
   void drawBox(uint32_t cell);
-  int drawOperand(const Operand& operand, const std::vector<std::string>& note, int label, int value, int y);
+  struct OperandPlace {
+    uint32_t cell = 0, operand = 0; // operand: index
+    int label = 0, value = 0, y = 0;
+  };
+  int drawOperand(const OperandPlace& place, const std::vector<std::string>& note);
   void halo(const Cell& cell, Point corner, int width, int height);
   void text(int x, int y, Anchor anchor, Style style, std::string_view text, Link link = {});
   void text(int x, int y, Anchor anchor, Style style, LinkedText text);
@@ -150,6 +162,7 @@ private:
   std::vector<LinkedText> useLines(const Row& row) const;
 
   const Sheet& sheet_;
+  const int valueSpace_;
   std::vector<Measure> measures_;
   std::vector<int> left_;       // by cell
   std::vector<uint32_t> bands_; // by cell
@@ -188,9 +201,9 @@ Measure Layout::measureBox(const Cell& cell) const {
   int values = 0;
   for (const Operand& operand : cell.operands) {
     m.labels = std::max(m.labels, widthOf(operand.label, kLabel) + (operand.label.empty() ? 0 : kPad));
-    const int address = operand.address.empty() ? 0 : kPad + widthOf(operand.address, Style::Address);
+    const int after = addressWidth(operand) + (hasValue(operand) ? valueSpace_ : 0);
     m.notes.push_back(wrap(operand.note, Style::Note, kBoxNoteWidth));
-    values = std::max({values, widthOf(operand.name, Style::Name) + address, noteWidth(m.notes.back(), Style::Note)});
+    values = std::max({values, widthOf(operand.name, Style::Name) + after, noteWidth(m.notes.back(), Style::Note)});
     m.body += lineHeight(Style::Name) + 2 + static_cast<int>(m.notes.back().size()) * lineHeight(Style::Note);
   }
   m.body += kPad + (cell.badge.empty() ? 0 : lineHeight(Style::Badge));
@@ -394,14 +407,14 @@ void Layout::drawWire(uint32_t row, uint32_t left, uint32_t right) {
     const Point end{rail_ - kBandEnd, wireIn(band, row)};
     const Point start{kBandWire, wireIn(band + 1, row)};
     const std::string number = std::to_string(++jumps_);
-    picture_.wires.push_back({{x, end.y}, end});
+    picture_.wires.push_back({{x, end.y}, end, left});
     picture_.jumps.push_back({end, start});
     text(end.x + 3, end.y + 4, Anchor::Start, Style::Pin, "\u2192" + number);
     text(start.x - 3, start.y + 4, Anchor::End, Style::Pin, number + "\u2192");
     x = start.x;
   }
   const int y = wireOf(right, row);
-  picture_.wires.push_back({{x, y}, {leftPort(right), y}});
+  picture_.wires.push_back({{x, y}, {leftPort(right), y}, left});
 }
 
 void Layout::drawRow(uint32_t row) {
@@ -410,7 +423,8 @@ void Layout::drawRow(uint32_t row) {
     const Cell& cell = sheet_.cells[stops[i].cell];
     const int y = wireOf(stops[i].cell, row);
     if (stops[i].joined) drawWire(row, stops[i - 1].cell, stops[i].cell);
-    if (cell.closing && cell.firstRow == row) picture_.wires.push_back({{rightPort(stops[i].cell), y}, {rail_, y}});
+    if (cell.closing && cell.firstRow == row)
+      picture_.wires.push_back({{rightPort(stops[i].cell), y}, {rail_, y}, stops[i].cell});
     if (cell.kind != Kind::Joint) continue;
     const bool right = i + 1 < stops.size() && stops[i + 1].joined;
     const int ways = stops[i].joined + right + (row > cell.firstRow) + (row < cell.lastRow);
@@ -434,7 +448,8 @@ void Layout::drawRemark(uint32_t row) {
 
 void Layout::drawJoint(uint32_t cell) {
   const Cell& here = sheet_.cells[cell];
-  picture_.wires.push_back({{left_[cell], wireOf(cell, here.firstRow)}, {left_[cell], wireOf(cell, here.lastRow)}});
+  const int x = left_[cell];
+  picture_.wires.push_back({{x, wireOf(cell, here.firstRow)}, {x, wireOf(cell, here.lastRow)}, cell});
 }
 
 void Layout::drawSymbol(uint32_t cell) {
@@ -444,7 +459,7 @@ void Layout::drawSymbol(uint32_t cell) {
   const int middle = left_[cell] + m.width / 2;
   const bool slash = here.mark == "/";
   picture_.symbols.push_back(
-      {here.kind == Kind::Coil ? Glyph::Coil : Glyph::Contact, slash, {leftPort(cell), y}, m.symbol});
+      {here.kind == Kind::Coil ? Glyph::Coil : Glyph::Contact, slash, {leftPort(cell), y}, m.symbol, cell});
   if (!slash) text(middle, y + 4, Anchor::Middle, Style::Mark, here.mark);
   int up = y - kSymbolHalf - 5;
   text(middle, up, Anchor::Middle, Style::Name, here.operand.name, here.operand.link);
@@ -465,10 +480,16 @@ void Layout::halo(const Cell& cell, Point corner, int width, int height) {
   if (cell.seen != Seen::Unasked) picture_.halos.push_back({corner, width, height, cell.seen, cell.detail});
 }
 
-int Layout::drawOperand(const Operand& operand, const std::vector<std::string>& note, int label, int value, int y) {
-  text(label, y, Anchor::Start, kLabel, operand.label);
+// Returns the baseline of the next operand.
+int Layout::drawOperand(const OperandPlace& place, const std::vector<std::string>& note) {
+  const Operand& operand = sheet_.cells[place.cell].operands[place.operand];
+  const int value = place.value, nameEnd = value + widthOf(operand.name, Style::Name) + kPad;
+  int y = place.y;
+  text(place.label, y, Anchor::Start, kLabel, operand.label);
   text(value, y, Anchor::Start, Style::Name, operand.name, operand.link);
-  text(value + widthOf(operand.name, Style::Name) + kPad, y, Anchor::Start, Style::Address, operand.address);
+  text(nameEnd, y, Anchor::Start, Style::Address, operand.address);
+  if (valueSpace_ > 0 && hasValue(operand))
+    picture_.values.push_back({{nameEnd + addressWidth(operand), y}, place.cell, place.operand});
   for (const std::string& line : note) {
     y += lineHeight(Style::Note);
     text(value, y, Anchor::Start, Style::Note, line);
@@ -482,14 +503,14 @@ void Layout::drawBox(uint32_t cell) {
   const int top = wireOf(cell, here.firstRow) - m.above;
   const int x = left_[cell];
   const int bottom = std::max(top + kHead + m.body, wireOf(cell, here.lastRow) + kSymbolHalf);
-  picture_.frames.push_back({{x, top}, m.width, bottom - top, kHead});
+  picture_.frames.push_back({{x, top}, m.width, bottom - top, kHead, cell});
   text(x + m.width / 2, top + 15, Anchor::Middle, Style::Title, here.title, here.link);
   for (uint32_t i = 0; i < here.pins.size(); ++i)
     text(x + 5, wireOf(cell, here.firstRow + i) + 4, Anchor::Start, Style::Pin, here.pins[i]);
   int y = top + kHead + lineHeight(Style::Name);
   const int label = x + kPad + m.pins;
-  for (size_t i = 0; i < here.operands.size(); ++i)
-    y = drawOperand(here.operands[i], m.notes[i], label, label + m.labels, y);
+  for (uint32_t i = 0; i < here.operands.size(); ++i)
+    y = drawOperand({cell, i, label, label + m.labels, y}, m.notes[i]);
   text(label + m.labels, y, Anchor::Start, Style::Badge, here.badge);
   halo(here, {x, top}, m.width, bottom - top);
 }
@@ -522,8 +543,8 @@ Picture Layout::run(int rail) {
 
 } // namespace
 
-int neededRail(const Sheet& sheet) { return Layout(sheet).rail(); }
-Picture layOut(const Sheet& sheet, int rail) { return Layout(sheet).run(rail); }
+int neededRail(const Sheet& sheet, int valueSpace) { return Layout(sheet, valueSpace).rail(); }
+Picture layOut(const Sheet& sheet, int rail, int valueSpace) { return Layout(sheet, valueSpace).run(rail); }
 
 // Chooses among the cut positions in the right part of a band the one that cuts the fewest wires.
 
@@ -623,6 +644,7 @@ public:
     for (const Line& bar : picture.bars) at(bar.from.y).bars.push_back(bar);
     for (const Point arrow : picture.arrows) at(arrow.y).arrows.push_back(arrow);
     for (const Text& text : picture.texts) at(text.at.y).texts.push_back(text);
+    for (const ValueSpace& value : picture.values) at(value.at.y).values.push_back(value);
     return std::move(pieces_);
   }
 
@@ -637,7 +659,7 @@ private:
     for (size_t i = indexAt(wire.from.y); i <= indexAt(wire.to.y); ++i) {
       const int from = std::max(wire.from.y, edges_[i]);
       const int to = std::min(wire.to.y, edges_[i + 1]);
-      pieces_[i].wires.push_back({{wire.from.x, from}, {wire.to.x, to}});
+      pieces_[i].wires.push_back({{wire.from.x, from}, {wire.to.x, to}, wire.cell});
     }
   }
 

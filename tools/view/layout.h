@@ -22,7 +22,8 @@ struct Point {
 
 struct Line {
   Point from;
-  Point to; // right of or below `from`
+  Point to;          // right of or below `from`
+  uint32_t cell = 0; // what gives it power: the cell at its left end, or the joint that it is
 };
 
 enum class Glyph : uint8_t { Contact, Coil };
@@ -32,13 +33,22 @@ struct Symbol {
   bool slash = false;
   Point left; // left end, where its wire ends
   int width = 0;
+  uint32_t cell = 0; // index in Sheet::cells
 };
 
 struct Frame {
   Point corner;
   int width = 0;
   int height = 0;
-  int head = 0; // height of the bar with the mnemonic
+  int head = 0;      // height of the bar with the mnemonic
+  uint32_t cell = 0; // index in Sheet::cells
+};
+
+// The space for the value of a box's operand, which only a running program has.
+struct ValueSpace {
+  Point at; // left end, on the baseline
+  uint32_t cell = 0;
+  uint32_t operand = 0; // index in Cell::operands
 };
 
 // A mark around an element: how much of it was seen in a run.
@@ -92,16 +102,19 @@ struct Picture {
   std::vector<Line> bars;    // across a line of control: what is waited for
   std::vector<Point> arrows; // their points, to the right
   std::vector<Text> texts;
+  std::vector<ValueSpace> values; // none without space for them
 };
 
 inline constexpr int kLeft = 8;        // x of the left rail
 inline constexpr int kSymbolHalf = 11; // half the height of a contact or coil
 inline constexpr int kMargin = 160;    // space for remarks to the right of the right rail
 
+// Functions with `valueSpace` leave so many pixels for the value of each operand of a box that is a place.
+
 // The x that the right rail needs if the sheet is not cut.
-int neededRail(const Sheet& sheet);
+int neededRail(const Sheet& sheet, int valueSpace = 0);
 // `rail`: desired x of the right rail; it is further to the right if no cut helps.
-Picture layOut(const Sheet& sheet, int rail);
+Picture layOut(const Sheet& sheet, int rail, int valueSpace = 0);
 Picture layOut(const Chart& chart);
 
 // Chooses where to cut a rung that is too wide. Internal to the layout.

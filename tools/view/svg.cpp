@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 
 #include <fmt/ranges.h>
 
@@ -21,39 +22,46 @@ void appendRails(std::string& out, const Picture& picture) {
   put(out, R"(<path class="e" d="M{0} {1}v{3}M{2} {1}v{3}"/>)", kLeft, picture.top, picture.rail, picture.height);
 }
 
-void appendWires(std::string& out, const Picture& picture) {
-  if (picture.wires.empty()) return;
-  out += "<path class=\"w\" d=\"";
-  for (const Line& line : picture.wires) {
-    put(out, "M{} {}", line.from.x, line.from.y);
-    if (line.from.y == line.to.y)
-      put(out, "h{}", line.to.x - line.from.x);
-    else
-      put(out, "v{}", line.to.y - line.from.y);
-  }
-  out += "\"/>";
+void appendLine(std::string& out, const Line& line) {
+  put(out, "M{} {}", line.from.x, line.from.y);
+  if (line.from.y == line.to.y)
+    put(out, "h{}", line.to.x - line.from.x);
+  else
+    put(out, "v{}", line.to.y - line.from.y);
+}
+
+void appendDots(std::string& out, const Picture& picture) {
   if (picture.dots.empty()) return;
   out += "<path class=\"d\" d=\"";
   for (Point dot : picture.dots) put(out, "M{} {}h0", dot.x, dot.y);
   out += "\"/>";
 }
 
+void appendWires(std::string& out, const Picture& picture) {
+  out += "<path class=\"w\" d=\"";
+  for (const Line& line : picture.wires) appendLine(out, line);
+  out += "\"/>";
+  appendDots(out, picture);
+}
+
+void appendSymbol(std::string& out, const Symbol& symbol) {
+  const int x = symbol.left.x;
+  const int top = symbol.left.y - kSymbolHalf;
+  const int height = 2 * kSymbolHalf;
+  if (symbol.glyph == Glyph::Contact) {
+    put(out, "M{} {}v{}M{} {}v{}", x, top, height, x + symbol.width, top, height);
+  } else {
+    put(out, "M{} {}a14.6 14.6 0 0 0 0 {}", x + 5, top, height);
+    put(out, "M{} {}a14.6 14.6 0 0 1 0 {}", x + symbol.width - 5, top, height);
+  }
+  const int in = symbol.glyph == Glyph::Contact ? 1 : 5;
+  if (symbol.slash) put(out, "M{} {}l{} {}", x + in, top + height - 3, symbol.width - 2 * in, 6 - height);
+}
+
 void appendSymbols(std::string& out, const Picture& picture) {
   if (picture.symbols.empty()) return;
   out += "<path class=\"s\" d=\"";
-  for (const Symbol& symbol : picture.symbols) {
-    const int x = symbol.left.x;
-    const int top = symbol.left.y - kSymbolHalf;
-    const int height = 2 * kSymbolHalf;
-    if (symbol.glyph == Glyph::Contact) {
-      put(out, "M{} {}v{}M{} {}v{}", x, top, height, x + symbol.width, top, height);
-    } else {
-      put(out, "M{} {}a14.6 14.6 0 0 0 0 {}", x + 5, top, height);
-      put(out, "M{} {}a14.6 14.6 0 0 1 0 {}", x + symbol.width - 5, top, height);
-    }
-    const int in = symbol.glyph == Glyph::Contact ? 1 : 5;
-    if (symbol.slash) put(out, "M{} {}l{} {}", x + in, top + height - 3, symbol.width - 2 * in, 6 - height);
-  }
+  for (const Symbol& symbol : picture.symbols) appendSymbol(out, symbol);
   out += "\"/>";
 }
 
@@ -82,6 +90,45 @@ void appendBars(std::string& out, const Picture& picture) {
   out += "<path class=\"v\" d=\"";
   for (const Point arrow : picture.arrows) put(out, "M{} {}l-8 -4v8z", arrow.x, arrow.y);
   out += "\"/>";
+}
+
+void appendLiveWires(std::string& out, const Picture& picture) {
+  std::map<uint32_t, std::string> byCell;
+  for (const Line& line : picture.wires) appendLine(byCell[line.cell], line);
+  for (const auto& [cell, lines] : byCell) put(out, R"(<path class="w" data-n="{}" d="{}"/>)", cell, lines);
+  appendDots(out, picture);
+}
+
+void appendCell(std::string& out, const Sheet& sheet, uint32_t index) {
+  const Cell& cell = sheet.cells[index];
+  const bool box = cell.kind == Cell::Kind::Box;
+  put(out, R"(data-c="{}" data-name="{}" data-mark="{}")", index, escaped(box ? cell.title : cell.operand.name),
+      escaped(cell.mark));
+  if (cell.operand.link.to == Link::To::Name) put(out, R"( data-id="{}")", cell.operand.link.id);
+}
+
+// Contacts and coils have a surface, which shows the state more clearly than lines do.
+void appendLiveSymbols(std::string& out, const Picture& picture, const Sheet& sheet) {
+  for (const Symbol& symbol : picture.symbols) {
+    const int top = symbol.left.y - kSymbolHalf;
+    const bool coil = symbol.glyph == Glyph::Coil;
+    put(out, R"(<g class="{}" )", coil ? "k o" : "k");
+    appendCell(out, sheet, symbol.cell);
+    put(out, R"(><rect x="{}" y="{}" width="{}" height="{}"{}/><path class="s" d=")", symbol.left.x, top, symbol.width,
+        2 * kSymbolHalf, coil ? R"( rx="10")" : "");
+    appendSymbol(out, symbol);
+    out += "\"/></g>";
+  }
+}
+
+void appendLiveFrames(std::string& out, const Picture& picture, const Sheet& sheet) {
+  for (const Frame& frame : picture.frames) {
+    const Point at = frame.corner;
+    out += R"(<g class="x" )";
+    appendCell(out, sheet, frame.cell);
+    put(out, R"(><path class="h" d="M{} {}h{}v{}h-{}z"/>)", at.x, at.y, frame.width, frame.head, frame.width);
+    put(out, R"(<path class="b" d="M{} {}h{}v{}h-{}z"/></g>)", at.x, at.y, frame.width, frame.height, frame.width);
+  }
 }
 
 void appendHalos(std::string& out, const Picture& picture) {
@@ -263,6 +310,19 @@ std::string escaped(std::string_view text) {
   return out;
 }
 
+// Of a chart: its steps are the cells.
+void appendLiveChart(std::string& out, const Picture& picture) {
+  for (size_t i = 0; i < picture.steps.size(); ++i) {
+    const Step& step = picture.steps[i];
+    put(out, R"(<rect class="st" data-c="{}" data-step="{}" x="{}" y="{}" width="{}" height="{}"/>)", i,
+        fmt::join(step.states, ", "), step.corner.x, step.corner.y, step.width, step.height);
+  }
+  appendFrames(out, picture);
+  appendWires(out, picture);
+  appendBars(out, picture);
+  appendTexts(out, picture, true);
+}
+
 void appendPicture(std::string& out, const Picture& picture, bool onPage) {
   appendSteps(out, picture);
   appendFrames(out, picture);
@@ -272,6 +332,17 @@ void appendPicture(std::string& out, const Picture& picture, bool onPage) {
   appendRails(out, picture);
   appendHalos(out, picture);
   appendTexts(out, picture, onPage);
+}
+
+void appendLivePicture(std::string& out, const Picture& picture, const Sheet& sheet) {
+  appendLiveFrames(out, picture, sheet);
+  appendLiveWires(out, picture);
+  appendLiveSymbols(out, picture, sheet);
+  appendRails(out, picture);
+  appendTexts(out, picture, true);
+  for (const ValueSpace& value : picture.values)
+    put(out, R"(<text class="v" data-v="{}.{}" x="{}" y="{}"></text>)", value.cell, value.operand, value.at.x,
+        value.at.y);
 }
 
 std::string pictureStyle(const Program& program, bool onPage) {
@@ -294,9 +365,9 @@ std::string pictureStyle(const Program& program, bool onPage) {
   return css;
 }
 
-int commonRail(const Program& program) {
+int commonRail(const Program& program, int valueSpace) {
   int rail = kLeastRail;
-  for (const Figure& figure : program.figures) rail = std::max(rail, neededRail(figure.sheet));
+  for (const Figure& figure : program.figures) rail = std::max(rail, neededRail(figure.sheet, valueSpace));
   return std::min(rail, kMostRail);
 }
 

@@ -14,11 +14,17 @@ std::string escaped(std::string_view text);
 
 // Lines and texts of a rung or a chart, for a <g> or <svg>. On a page, names link to their rows.
 void appendPicture(std::string& out, const Picture& picture, bool onPage);
+// The same for a page that follows a running program: what has power is drawn cell by cell, with the index of the cell
+// in `data-n` (wires, by what gives them power) or `data-c` (contacts, coils, boxes), with its name and NameRow::id,
+// and `data-v` is "CELL.OPERAND".
+void appendLivePicture(std::string& out, const Picture& picture, const Sheet& sheet);
+// The same of a chart: `data-c` is the index of a step in Picture::steps.
+void appendLiveChart(std::string& out, const Picture& picture);
 // The CSS that the program's pictures need; on a page, colours are referred to by name (see style.h).
 std::string pictureStyle(const Program& program, bool onPage);
 
-// The x of the right rail for all rungs that can be cut to it.
-int commonRail(const Program& program);
+// The x of the right rail for all rungs that can be cut to it. `valueSpace`: see layOut.
+int commonRail(const Program& program, int valueSpace = 0);
 // The labels and the title of a rung: "NO_TOOL: nothing to change".
 std::string captionOf(const Figure& figure);
 // Its drawing, at a right rail of this x or further to the right.

@@ -1,0 +1,131 @@
+#!/usr/bin/env python3
+"""Power on the live page, read from its DOM, against what follows from the drawing: flow_test.py RUNGC [SCANS]
+
+For each example with a drawing: SCANS random scans (1000), with random inputs between them, at random places of the program.
+Power begins at the left rail, goes along wires from left to right, through contacts that conduct, and along joints; what the
+page shows of each wire and coil must be that. What contacts show is compared with the interpreter by rung_test_web.
+"""
+import random
+import sys
+import time
+import unittest
+
+from browser import Browser
+from live import ROOT, Live
+
+RUNGC = ""
+SCANS = 1000
+EXAMPLES = {"gsk-mill": "tool-change.scn", "fanuc-vmc": "tool-change.scn", "nct-lathe": None, "nct-turning-centre": None}
+
+# Returns what is wrong in the rungs of the picture, and how much was compared.
+CHECK = r"""
+const wrong = [];
+let compared = 0;
+for (const article of document.querySelectorAll('article[data-flow]')) {
+  if (!article.dataset.flow || /[→]/.test(article.querySelector('svg').textContent)) continue;
+  const wires = [], key = (x, y) => x + ',' + y, powered = new Set();
+  for (const path of article.querySelectorAll('path[data-n]')) {
+    let x = 0, y = 0;
+    for (const [, letter, a, b] of path.getAttribute('d').matchAll(/([Mhv])(-?\d+)(?: (-?\d+))?/g)) {
+      if (letter === 'M') { x = +a; y = +b; continue; }
+      const end = letter === 'h' ? [x + +a, y] : [x, y + +a];
+      wires.push({path, x, y, ex: end[0], ey: end[1], level: letter === 'h', on: false});
+    }
+  }
+  const symbols = [...article.querySelectorAll('.k')].map(one => {
+    const box = one.querySelector('rect'), x = +box.getAttribute('x'), y = +box.getAttribute('y') + 11;
+    return {one, x, y, end: x + +box.getAttribute('width'), coil: one.classList.contains('o'), on: one.dataset.on === '1'};
+  });
+  const boxes = [...article.querySelectorAll('.x .b')].map(path => {
+    const [, x, y, w, h] = path.getAttribute('d').match(/M(\d+) (\d+)h(\d+)v(\d+)/).map(Number);
+    return {x, y, end: x + w, bottom: y + h};
+  });
+  for (const wire of wires) {
+    if (wire.level && wire.x === 8) powered.add(key(8, wire.y));
+    // Of a box it is taken as shown what comes out.
+    if (wire.level && wire.path.dataset.on === '1' && boxes.some(b => b.end === wire.x && b.y <= wire.y && wire.y <= b.bottom)) powered.add(key(wire.x, wire.y));
+  }
+  for (let more = true; more;) {
+    more = false;
+    const add = (x, y) => { if (!powered.has(key(x, y))) { powered.add(key(x, y)); more = true; } };
+    for (const wire of wires) {
+      if (wire.level) {
+        if (!powered.has(key(wire.x, wire.y))) continue;
+        wire.on = true;
+        add(wire.ex, wire.ey);
+      } else {
+        const at = wires.flatMap(w => w.level ? [[w.x, w.y], [w.ex, w.ey]] : []).filter(([x, y]) => x === wire.x && y >= wire.y && y <= wire.ey);
+        if (!at.some(([x, y]) => powered.has(key(x, y)))) continue;
+        wire.on = true;
+        for (const [x, y] of at) add(x, y);
+      }
+    }
+    for (const s of symbols) if (powered.has(key(s.x, s.y)) && (s.on || s.coil)) add(s.end, s.y);
+  }
+  for (const wire of wires) {
+    ++compared;
+    if (wire.on !== (wire.path.dataset.on === '1')) wrong.push(`rung ${article.dataset.rung}: wire at ${wire.x},${wire.y}`);
+  }
+  for (const s of symbols.filter(s => s.coil && s.one.dataset.on !== '')) {
+    ++compared;
+    if (s.on !== powered.has(key(s.x, s.y))) wrong.push(`rung ${article.dataset.rung}: coil ${s.one.dataset.name}`);
+  }
+}
+return [wrong.slice(0, 5), compared, document.getElementById('space').dataset.scan];
+"""
+
+
+class Flow(unittest.TestCase):
+    def run_example(self, name):
+        seed = int(time.time())
+        chance = random.Random(seed)
+        words = [ROOT / "examples" / name]
+        if EXAMPLES[name] is not None:
+            words = ["--scenario", ROOT / "examples" / name / EXAMPLES[name]]
+        live = Live(RUNGC, *words)
+        page = Browser()
+        try:
+            page.open(live.link)
+            live.log_in_again(page)
+            live.order("pause")
+            inputs = [one[1] for one in live.ask("names")["names"] if one[4] == "i"]
+            height = page.js("return document.getElementById('space').clientHeight")
+            compared = 0
+            for scan in range(SCANS):
+                for one in chance.sample(inputs, min(3, len(inputs))):
+                    try:
+                        live.order("set", name=one, value=str(chance.randrange(2)), writing=True)
+                    except OSError:
+                        pass  # the control writes it, or it is not a bit
+                if scan % 5 == 0:
+                    page.js("document.getElementById('ladder').scrollTop = arguments[0]", chance.randrange(height))
+                at = live.order("step", scans=1).split()[1]
+                page.until("return document.getElementById('space').dataset.scan === arguments[0] && [...document.querySelectorAll('article')].every(a => a.dataset.flow !== undefined)", f"scan {at}", at)
+                wrong, count, shown = page.js(CHECK)
+                self.assertEqual(shown, at)
+                self.assertEqual(wrong, [], f"{name}, scan {at}, seed {seed}")
+                compared += count
+            self.assertGreater(compared, 20 * SCANS)
+            print(f"{name}: {SCANS} scans, {compared} wires and coils")
+        finally:
+            page.close()
+            live.close()
+
+    def test_gsk(self):
+        self.run_example("gsk-mill")
+
+    def test_fanuc(self):
+        self.run_example("fanuc-vmc")
+
+    def test_nct_lathe(self):
+        self.run_example("nct-lathe")
+
+    def test_nct_turning_centre(self):
+        self.run_example("nct-turning-centre")
+
+
+if __name__ == "__main__":
+    RUNGC = sys.argv.pop(1)
+    if len(sys.argv) > 1 and sys.argv[1].isdigit():
+        SCANS = int(sys.argv.pop(1))
+    unittest.main()

@@ -1,0 +1,308 @@
+#!/usr/bin/env python3
+"""The live page as people use it, in Chromium: page_test.py RUNGC"""
+import sys
+import time
+import unittest
+
+from browser import Browser, Keys
+from live import ROOT, Live
+
+RUNGC = ""
+EXAMPLE = ROOT / "examples" / "gsk-mill"
+LAMP = ROOT / "tests" / "web" / "toggle.lad"
+
+
+class Page(unittest.TestCase):
+    """One program and one browser for all tests, which leave it running."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.live = Live(RUNGC, EXAMPLE)
+        cls.browser = Browser()
+        cls.browser.open(cls.live.link)
+        cls.live.log_in_again(cls.browser)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.browser.close()
+        cls.live.close()
+
+    def setUp(self):
+        self.browser.click("#tab-ladder")
+
+    def tearDown(self):
+        self.assertEqual(self.browser.errors(), [])
+
+    def scan(self):
+        return int(self.browser.text("#scan"))
+
+    def pause(self):
+        self.live.order("pause")
+        self.browser.until("return document.getElementById('state').textContent === 'Paused'", "paused")
+
+    def run_on(self):
+        self.live.order("run")
+        self.browser.until("return document.getElementById('state').textContent === 'Running'", "running")
+
+    def test_runs_and_pauses(self):
+        before = self.scan()
+        self.browser.until("return Number(document.getElementById('scan').textContent) > arguments[0] + 20", "scans", before)
+        self.browser.click("#go")
+        self.browser.until("return document.getElementById('state').textContent === 'Paused'", "paused")
+        at = self.scan()
+        time.sleep(0.3)
+        self.assertEqual(self.scan(), at)
+        self.browser.click("#step")
+        self.browser.until("return Number(document.getElementById('scan').textContent) === arguments[0]", "a step", at + 1)
+        self.browser.click("#go")
+        self.browser.until("return document.getElementById('state').textContent === 'Running'", "running")
+
+    def test_goes_back_and_shows_what_was(self):
+        """Scans that are shown again show what they have shown, forwards and backwards, and the newest scan stays."""
+        self.pause()
+        self.browser.js("document.querySelector('#ladder').scrollTop = 0")
+        newest = self.scan()
+        flow = "return [...document.querySelectorAll('article')].map(e => e.dataset.row + e.dataset.flow).join()"
+        shown = {}
+        for scan in range(newest, newest - 12, -1):
+            self.live.order("seek", scans=scan)
+            self.browser.until("return document.getElementById('space').dataset.scan === String(arguments[0])", "scan", scan)
+            shown[scan] = self.browser.js(flow)
+        for scan in sorted(shown):
+            self.live.order("seek", scans=scan)
+            self.browser.until("return document.getElementById('space').dataset.scan === String(arguments[0])", "scan", scan)
+            self.assertEqual(self.browser.js(flow), shown[scan], f"scan {scan}")
+        self.live.order("seek", scans=newest - 200)
+        self.browser.until("return document.getElementById('state').textContent === 'Past'", "the past")
+        self.run_on()
+        self.assertGreaterEqual(self.scan(), newest)
+
+    def test_timeline_by_mouse(self):
+        self.pause()
+        newest = self.scan()
+        slider = self.browser.find("#slider")
+        self.browser.js("arguments[0].value = Number(arguments[0].max) - 50; arguments[0].dispatchEvent(new Event('input'))", slider)
+        self.browser.until("return document.getElementById('scan').textContent === String(arguments[0])", "dragged", newest - 50)
+        self.assertEqual(self.browser.text("#go"), "To now")
+        self.browser.click("#go")
+        self.browser.until("return document.getElementById('state').textContent === 'Running'", "running")
+
+    def test_search(self):
+        for what, rung in (("Y8.0", "r260"), ("SPINDLE_CW", "r260"), ("260", "r260"), ("contactor counter", "r261")):
+            with self.subTest(what):
+                box = self.browser.find("#what")
+                box.clear()
+                box.send_keys(what)
+                self.browser.until("return document.querySelectorAll('#found li:not(.none)').length > 0", "found")
+                box.send_keys(Keys.ENTER)
+                self.browser.until("return document.querySelector('article.now')?.id === arguments[0]", rung, rung)
+
+    def test_cross_reference_by_click(self):
+        self.browser.js("document.activeElement.blur()")
+        self.browser.find("#what").clear()
+        self.browser.find("#what").send_keys("260")
+        self.browser.until("return document.querySelector('#found li')", "found")
+        self.browser.find("#what").send_keys(Keys.ENTER)
+        self.browser.until("return document.querySelector('#r260 .k')", "the rung")
+        self.browser.js("document.querySelector('#r260 [data-name=CW_ORDER]').dispatchEvent(new MouseEvent('click', {bubbles: true}))")
+        self.browser.until("return document.querySelector('#detail h2')?.textContent === 'CW_ORDER'", "the name")
+        self.browser.until("return /^[01]$/.test(document.querySelector('#detail output')?.textContent)", "its value")
+        link = self.browser.js("return [...document.querySelectorAll('#detail dd')][0].querySelector('a').textContent")
+        self.browser.js("[...document.querySelectorAll('#detail dd')][0].querySelector('a').click()")
+        self.browser.until("return document.querySelector('article.now')?.id === arguments[0]", link, "r" + link)
+        self.browser.js("[...document.querySelectorAll('#detail button')].find(b => b.textContent === 'Why?').click()")
+        self.browser.until("return /CW_ORDER = [01]/.test(document.querySelector('.why')?.textContent)", "why")
+
+    def test_watch(self):
+        self.browser.click("#tab-watch")
+        self.browser.find("#watch input").send_keys("SPINDLE_CW", Keys.ENTER)
+        self.browser.until("return document.querySelector('#watch td.value')?.textContent === '0'", "a value")
+        self.pause()
+        newest = self.scan()
+        self.browser.click("#trace")
+        self.browser.until("return document.querySelector('.lines svg .wave')", "a line")
+        self.assertEqual(self.scan(), newest)
+        self.browser.js("const s = document.querySelector('.lines svg'), b = s.getBoundingClientRect();"
+                        "s.dispatchEvent(new MouseEvent('click', {clientX: b.left + b.width - 1}))")
+        self.browser.until("return document.getElementById('scan').textContent === String(arguments[0])", "the last scan of it", newest)
+        self.run_on()
+        self.browser.js("[...document.querySelectorAll('#watch button')].find(b => b.textContent === 'Remove').click()")
+        self.browser.until("return document.querySelectorAll('#watch tbody tr').length === 0", "removed")
+
+    def test_inputs_and_outputs(self):
+        self.browser.click("#tab-io")
+        self.browser.until("return document.querySelectorAll('#io tbody tr').length > 300", "all")
+        self.browser.until("return document.querySelector('#io td.value').textContent === '0'", "a value")
+        self.browser.find("#io input").send_keys("LUBE")
+        self.browser.until("const n = document.querySelectorAll('#io tbody tr').length; return n > 0 && n < 20", "some")
+        self.browser.find("#io input").clear()
+
+    def test_writes_only_when_switched_on(self):
+        """A page with writing off is refused by the server, too."""
+        with self.assertRaises(Exception):
+            self.live.ask("order", {"do": "set", "name": "X8.4", "value": "1"})
+        page = self.browser
+        page.find("#what").clear()
+        page.find("#what").send_keys("X_ESP")
+        page.until("return document.querySelector('#found li')", "found")
+        page.find("#what").send_keys(Keys.ENTER)
+        page.until("return document.querySelector('#detail h2')?.textContent === 'X_ESP'", "the name")
+        self.assertEqual(page.js("return document.querySelectorAll('#detail .write').length"), 0)
+        page.click("#writing")
+        page.js("[...document.querySelectorAll('dialog button')].find(b => b.textContent === 'Switch on').click()")
+        page.until("return document.querySelector('#detail .write input')", "the form")
+        page.js("document.querySelector('#detail .write input').value = '1'")
+        page.js("[...document.querySelectorAll('#detail .write button')].find(b => b.textContent === 'Force').click()")
+        page.until("return document.querySelector('#detail output').textContent === '1 (forced)'", "forced")
+        page.until("return document.querySelector('#r2 .forced')?.dataset.name === 'X_ESP'", "marked in the rung")
+        page.until("return document.querySelector('#r2 [data-name=X_ESP]').dataset.on === '1'", "it conducts")
+        self.assertEqual(page.text("#forced"), "1 forced")
+        page.js("[...document.querySelectorAll('#detail .write button')].find(b => b.textContent === 'Release').click()")
+        page.until("return document.getElementById('forced').hidden", "released")
+        page.click("#tab-log")
+        page.until("return /force X_ESP 1/.test(document.getElementById('log').textContent)", "in the history")
+        page.click("#writing")
+        page.until("return document.getElementById('writing').getAttribute('aria-pressed') === 'false'", "off")
+
+    def test_keyboard_alone(self):
+        page = self.browser
+        page.js("document.activeElement.blur()")
+        page.keys("/", "255", Keys.ENTER)
+        page.until("return document.activeElement.id === 'r255'", "the rung has the focus")
+        page.keys(Keys.ARROW_DOWN)
+        page.until("return document.activeElement.id === 'r256'", "the next")
+        page.keys(Keys.ARROW_RIGHT)
+        page.until("return document.querySelector('#r256 .at') && !document.getElementById('detail').hidden", "an element")
+        page.keys(Keys.ESCAPE)
+        page.until("return document.getElementById('detail').hidden", "closed")
+        page.keys(" ")
+        page.until("return document.getElementById('state').textContent === 'Paused'", "paused")
+        page.keys(",")
+        page.until("return document.getElementById('state').textContent === 'Past'", "one scan back")
+        page.keys(" ")
+        page.until("return document.getElementById('state').textContent === 'Running'", "running")
+        page.keys("3")
+        page.until("return !document.getElementById('io').hidden", "the view")
+
+    def test_is_read_aloud(self):
+        page = self.browser
+        page.keys("/", "260", Keys.ENTER)
+        text = page.until("const t = document.querySelector('#r260')?.getAttribute('aria-label'); return /CW_ORDER (conducts|does not)/.test(t) && t", "the rung in words")
+        self.assertIn("Rung 260: contactor clockwise. ", text)
+        self.assertIn("SPINDLE_CW off", text)
+        unnamed = page.js("return [...document.querySelectorAll('button,input,select,[role]')].filter(e => e.offsetParent && "
+                          "!e.textContent.trim() && !e.getAttribute('aria-label') && !e.getAttribute('aria-labelledby')).map(e => e.outerHTML)")
+        self.assertEqual(unnamed, [])
+
+    def test_phone(self):
+        page = Browser()
+        try:
+            page.phone()
+            page.open(self.live.order_link())
+            page.until("return document.querySelectorAll('article').length > 1", "rungs")
+            wide = page.js("return document.documentElement.scrollWidth")
+            self.assertLessEqual(wide, 390)
+            page.until("return document.querySelector('article svg').getBoundingClientRect().width < 560", "narrow drawings")
+            page.click("#menu")
+            page.until("return getComputedStyle(document.getElementById('side')).display !== 'none'", "the contents")
+            page.js("[...document.querySelectorAll('#tree li')][3].click()")
+            page.until("return getComputedStyle(document.getElementById('side')).display === 'none'", "closed again")
+            self.assertEqual(page.errors(), [])
+        finally:
+            page.close()
+
+    def test_two_browsers(self):
+        other = Browser()
+        try:
+            other.open(self.live.order_link())
+            self.pause()
+            other.until("return document.getElementById('state').textContent === 'Paused'", "paused there, too")
+            self.assertEqual(int(other.text("#scan")), self.scan())
+            other.click("#go")
+            self.browser.until("return document.getElementById('state').textContent === 'Running'", "running here, too")
+            self.assertEqual(other.errors(), [])
+        finally:
+            other.close()
+
+
+class Connection(unittest.TestCase):
+    def test_comes_back(self):
+        """A page whose server is silent says so, and goes on when it speaks again."""
+        live = Live(RUNGC, EXAMPLE)
+        page = Browser()
+        try:
+            page.open(live.link)
+            page.js("window.real = window.fetch; window.fetch = () => Promise.reject(new TypeError('cut'))")
+            page.until("return !document.getElementById('lost').hidden", "it says that it has no connection")
+            self.assertEqual(page.text("#state"), "No connection")
+            before = page.text("#scan")
+            page.js("window.fetch = window.real")
+            page.until("return document.getElementById('lost').hidden", "it is there again")
+            page.until("return Number(document.getElementById('scan').textContent) > arguments[0]", "scans", int(before))
+        finally:
+            page.close()
+            live.close()
+
+
+class Recorded(unittest.TestCase):
+    def test_replay(self):
+        """A scenario as it ran: played, dragged back, asked why; it cannot be changed."""
+        live = Live(RUNGC, EXAMPLE / "spindle.scn", command="replay")
+        page = Browser()
+        try:
+            page.open(live.link)
+            page.until("return document.getElementById('state').textContent === 'Past'", "the past")
+            last = int(page.text("#scan"))
+            self.assertEqual(page.text("#go"), "Play")
+            page.click("#back")
+            page.until("return document.getElementById('scan').textContent === String(arguments[0])", "a scan back", last - 1)
+            page.js("const s = document.getElementById('slider'); s.value = 2; s.dispatchEvent(new Event('input'))")
+            page.until("return document.getElementById('scan').textContent === '2'", "the beginning")
+            page.click("#go")
+            page.until("return Number(document.getElementById('scan').textContent) > 12", "it plays")
+            page.click("#go")
+            page.click("#tab-log")
+            page.until("return document.querySelectorAll('#log tbody tr.k-statement').length > 3", "what the scenario did")
+            page.click("#tab-ladder")
+            page.js("const s = document.getElementById('slider'); s.value = s.max; s.dispatchEvent(new Event('input'))")
+            page.until("return document.getElementById('scan').textContent === String(arguments[0])", "the end", last)
+            page.find("#what").send_keys("SPINDLE_CW", Keys.ENTER)
+            page.until("return document.querySelector('#detail h2')?.textContent === 'SPINDLE_CW'", "the name")
+            page.js("[...document.querySelectorAll('#detail button')].find(b => b.textContent === 'Why?').click()")
+            page.until("return document.querySelectorAll('.step').length > 0", "the chain")
+            page.until("return document.querySelector('#r260 .cause')", "what decided, in the drawing")
+            page.click("#writing")
+            page.until("return /recording cannot be changed/.test(document.getElementById('toast').textContent)", "refused")
+            self.assertEqual(page.errors(), [])
+        finally:
+            page.close()
+            live.close()
+
+
+class Alternating(unittest.TestCase):
+    def test_one_scan_at_a_time(self):
+        """X alternates; two rungs read X and not X, and no picture has them both on, or both off."""
+        live = Live(RUNGC, LAMP)
+        page = Browser()
+        try:
+            page.open(live.link)
+            page.until("return document.querySelectorAll('article').length === 3", "rungs")
+            seen = page.driver.execute_async_script("""
+                const done = arguments[0], seen = new Set();
+                let left = 400;
+                const on = name => document.querySelector(`.o[data-name=${name}]`).dataset.on;
+                const look = () => {
+                  seen.add(on('SAME') + on('OTHER') + document.querySelector('#r2 [data-name=X]').dataset.on +
+                           document.querySelector('#r3 [data-name=X]').dataset.on);
+                  if (--left) requestAnimationFrame(look); else done([...seen].sort());
+                };
+                look();""")
+            self.assertEqual(seen, ["0101", "1010"])
+        finally:
+            page.close()
+            live.close()
+
+
+if __name__ == "__main__":
+    RUNGC = sys.argv.pop(1)
+    unittest.main()

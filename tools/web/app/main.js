@@ -1,0 +1,278 @@
+// The page: puts its parts together, and draws every picture in all of them at once.
+import {get, post, Pictures} from './link.js';
+import {isNarrow, Pane} from './pane.js';
+import {Tree} from './tree.js';
+import {Find, Names} from './find.js';
+import {Trace} from './trace.js';
+import {Detail, History, make, Terminals, timeText, Watch, Writer} from './panels.js';
+
+const by = id => document.getElementById(id);
+const kStates = {running: 'Running', paused: 'Paused', past: 'Past', fault: 'Fault', lost: 'No connection'};
+
+let picture = null;       // the one that is drawn
+let seeking = null;       // the scan that was last asked for, while an answer is awaited
+let tab = 'ladder';
+
+function tell(text, wrong = false) {
+  const toast = by('toast');
+  toast.textContent = text;
+  toast.classList.toggle('wrong', wrong);
+  toast.hidden = false;
+  clearTimeout(tell.timer);
+  tell.timer = setTimeout(() => { toast.hidden = true; }, wrong ? 8000 : 3500);
+}
+
+async function order(what) {
+  try {
+    return await post('order', what);
+  } catch (error) {
+    tell(error.message, true);
+    return null;
+  }
+}
+
+// One request at a time: what is asked for meanwhile comes afterwards, once.
+async function seek(scan) {
+  if (seeking !== null) { seeking = scan; return; }
+  seeking = scan;
+  for (;;) {
+    const asked = seeking;
+    await order({do: 'seek', scans: asked});
+    if (seeking === asked) break;
+  }
+  seeking = null;
+}
+
+const step = scans => order({do: 'step', scans});
+const running = () => picture && picture.state === 'running';
+const go = () => order({do: running() ? 'pause' : 'run'});
+
+function setTheme(next) {
+  if (next) document.documentElement.dataset.theme = next; else delete document.documentElement.dataset.theme;
+  try { localStorage.setItem('rung-theme', next); } catch { /* it lasts as long as the page */ }
+}
+try { setTheme(localStorage.getItem('rung-theme') ?? ''); } catch { /* the system's */ }
+
+function isDark() {
+  const set = document.documentElement.dataset.theme;
+  return set ? set === 'dark' : matchMedia('(prefers-color-scheme: dark)').matches;
+}
+
+function dialog(title, parts, buttons) {
+  const box = by('dialog');
+  const row = make('div', 'actions');
+  for (const [text, act] of buttons) {
+    const one = make('button', '', text);
+    one.onclick = () => { box.close(); act?.(); };
+    row.append(one);
+  }
+  box.replaceChildren(make('h2', '', title), ...parts, row);
+  box.showModal();
+}
+
+function keysDialog() {
+  const list = make('dl', 'keys');
+  for (const [key, what] of [['/', 'search'], ['Space', 'run or pause'], [', and .', 'one scan back or on'],
+    ['↑ ↓', 'rung before, rung after'], ['← →', 'elements of the rung'], ['Home End', 'first, last rung'],
+    ['w', 'watch the selected name'], ['1 2 3 4', 'views'], ['Esc', 'close']])
+    list.append(make('dt', '', key), make('dd', '', what));
+  dialog('Keys', [list], [['Close']]);
+}
+
+async function start() {
+  const narrow = isNarrow();
+  const index = await get('index?narrow=' + Number(narrow));
+  document.title = index.title + ' – Rung';
+  by('title').textContent = index.title;
+  by('control').textContent = index.control;
+
+  const names = new Names();
+  const writer = new Writer(tell);
+  const showTab = which => {
+    tab = which;
+    for (const one of ['ladder', 'watch', 'io', 'log']) {
+      by(one).hidden = one !== which;
+      by('tab-' + one).setAttribute('aria-selected', String(one === which));
+      by('tab-' + one).tabIndex = one === which ? 0 : -1;
+    }
+    if (which === 'io') terminals.fill();
+    if (which === 'ladder') pane.soon();
+    follow();
+  };
+  const goRung = number => { closeSide(); showTab('ladder'); pane.goRung(number); };
+  const goRow = row => { closeSide(); showTab('ladder'); pane.go(row, index.kinds[row] === 'r'); };
+  const choose = element => { detail.show(element).then(follow); };
+
+  const pane = new Pane(by('ladder'), by('space'), index, narrow, choose);
+  const tree = new Tree(by('tree'), index, goRow);
+  const watch = new Watch(by('watch'), names, writer, goRung, 'rung-watch-' + index.title);
+  const detail = new Detail(by('detail'), names, writer, {go: goRung, goRow, seek, causes: map => pane.setCauses(map),
+    watch: name => { watch.add(name); tell(`${name} is watched`); }});
+  const terminals = new Terminals(by('io'), names, goRung, choose);
+  const history = new History(by('log'), seek);
+  new Find(by('what'), by('found'), names, index, found => {
+    if (found.name) {
+      choose({dataset: {id: found.name.id, name: found.name.name}});
+      const first = found.name.writes[0] ?? found.name.reads[0];
+      if (first && tab === 'ladder') goRung(first);
+    } else if (found.rung) {
+      goRung(found.rung);
+    } else {
+      goRow(found.row);
+    }
+  });
+  watch.fill();
+  new Trace(by('watch'), watch, seek, tell);
+
+  // What the next pictures must have.
+  function follow() {
+    const wanted = new Set(detail.name ? [detail.name] : []);
+    for (const name of tab === 'watch' ? watch.follows() : tab === 'io' ? terminals.follows() : []) wanted.add(name);
+    pictures.follow(tab === 'ladder' && pane.range ? pane.range : [0, 0], [...wanted]);
+  }
+  watch.onchange = terminals.onchange = () => follow();
+  pane.onrange = () => {
+    by('here').textContent = tree.here(pane.visible()[0]);
+    follow();
+  };
+
+  function draw(next) {
+    picture = next;
+    by('state').textContent = kStates[next.state];
+    by('status').dataset.state = next.state;
+    by('pill').title = next.fault;
+    by('scan').textContent = next.scan;
+    by('time').textContent = timeText(next.us);
+    by('go').textContent = next.state === 'running' ? 'Pause' : !index.live ? 'Play' : next.scan < next.last ? 'To now' : 'Run';
+    by('back').disabled = next.scan <= next.first;
+    const slider = by('slider');
+    slider.min = next.first;
+    slider.max = next.last;
+    if (seeking === null && document.activeElement !== slider || running()) slider.value = next.scan;
+    slider.setAttribute('aria-valuetext', `scan ${next.scan}, ${timeText(next.us)}`);
+    by('forced').hidden = !next.forces.length;
+    by('forced').textContent = `${next.forces.length} forced`;
+    by('forced').title = next.forces.map(cell => `${cell.name} = ${cell.value}`).join('\n');
+    const newest = next.fault || next.messages.map(([number, text]) => `${number} ${text}`).join('   ·   ');
+    if (by('messages').textContent !== (newest || 'No messages')) by('messages').textContent = newest || 'No messages';
+    by('messages').classList.toggle('any', Boolean(newest));
+    pane.draw(next);
+    watch.draw(next);
+    terminals.draw(next);
+    detail.draw(next);
+    history.update(next.event);
+    drawMarks();
+    document.body.dataset.scan = next.scan;
+  }
+
+  // Messages, faults and what people did, on the time line.
+  let marked = '';
+  function drawMarks() {
+    const canvas = by('marks'), width = canvas.clientWidth;
+    const key = [width, picture.first, picture.last, history.list.length, isDark()].join();
+    if (key === marked || !width) return;
+    marked = key;
+    const ratio = devicePixelRatio || 1, style = getComputedStyle(document.documentElement);
+    canvas.width = width * ratio;
+    canvas.height = canvas.clientHeight * ratio;
+    const pen = canvas.getContext('2d');
+    pen.scale(ratio, ratio);
+    for (const one of history.list) {
+      if (one.scan < picture.first || picture.last <= picture.first) continue;
+      const x = 8 + (one.scan - picture.first) / (picture.last - picture.first) * (width - 16);
+      pen.fillStyle = style.getPropertyValue(one.kind === 'fault' ? '--warn' : one.kind === 'message' ? '--part' : one.kind === 'gone' ? '--soft' : '--link');
+      pen.fillRect(x - 1, 0, 2, canvas.clientHeight);
+    }
+  }
+
+  const pictures = new Pictures(draw, lost => {
+    by('lost').hidden = !lost;
+    document.body.classList.toggle('is-lost', lost);
+    if (lost) { by('status').dataset.state = 'lost'; by('state').textContent = kStates.lost; by('lost-scan').textContent = picture?.scan ?? '–'; }
+  });
+
+  // ---- what people do ----
+  by('go').onclick = go;
+  by('back').onclick = () => step(-1);
+  by('step').onclick = () => step(1);
+  by('slider').oninput = () => seek(Number(by('slider').value));
+  by('messages').onclick = () => showTab('log');
+  by('forced').onclick = () => dialog('Forced', [list(picture.forces.map(cell => `${cell.name} = ${cell.value}`))],
+    writer.on ? [['Release all', () => writer.send({do: 'unforce', name: ''})], ['Close']] : [['Close']]);
+  for (const one of ['ladder', 'watch', 'io', 'log']) by('tab-' + one).onclick = () => showTab(one);
+  by('tabs').onkeydown = event => {
+    const all = ['ladder', 'watch', 'io', 'log'], delta = {ArrowRight: 1, ArrowLeft: -1}[event.key];
+    if (!delta) return;
+    const next = all[(all.indexOf(tab) + delta + all.length) % all.length];
+    showTab(next);
+    by('tab-' + next).focus();
+    event.preventDefault();
+    event.stopPropagation();
+  };
+
+  by('writing').onclick = () => {
+    const turn = on => {
+      writer.on = on;
+      by('writing').setAttribute('aria-pressed', String(on));
+      by('writing').textContent = on ? 'Writing on' : 'Writing off';
+      document.body.classList.toggle('is-writing', on);
+      if (picture) draw(picture);
+    };
+    if (writer.on) return turn(false);
+    if (index.mayWrite) return tell(index.mayWrite, true);
+    dialog('Switch writing on?', [make('p', '', 'Then this page can set and force values of the running program. ' +
+      'Each of them acts at once, is confirmed, and appears in the history.')],
+    [['Switch on', () => turn(true)], ['Cancel']]);
+  };
+
+  const closeSide = () => { document.body.classList.remove('side-open'); by('menu').setAttribute('aria-expanded', 'false'); };
+  by('menu').onclick = () => {
+    const open = document.body.classList.toggle('side-open');
+    by('menu').setAttribute('aria-expanded', String(open));
+    if (open) by('tree').querySelector('[tabindex="0"]')?.focus();
+  };
+  const more = open => { by('menu-more').hidden = !open; by('more').setAttribute('aria-expanded', String(open)); };
+  by('more').onclick = event => { event.stopPropagation(); more(by('menu-more').hidden); };
+  document.addEventListener('click', () => more(false));
+  by('theme').onclick = () => setTheme(isDark() ? 'light' : 'dark');
+  by('keys').onclick = keysDialog;
+  by('other').onclick = async () => {
+    try {
+      const {link} = await post('link', {});
+      const text = make('p', 'link', link);
+      dialog('Link for another browser', [make('p', '', 'It opens this page once, in one browser.'), text],
+        [['Copy', () => navigator.clipboard?.writeText(link)], ['Close']]);
+    } catch (error) { tell(error.message, true); }
+  };
+
+  document.addEventListener('keydown', event => {
+    if (event.ctrlKey || event.metaKey || event.altKey || by('dialog').open) return;
+    const typing = event.target.matches('input:not([type=range]), select, textarea');
+    if (event.key === 'Escape') { if (!typing) { detail.close(); closeSide(); more(false); follow(); } return; }
+    if (typing) return;
+    const inside = event.target.closest('article, #ladder, body') && !event.target.closest('#tree, #tabs, #io, #watch, #log');
+    const acts = {
+      '/': () => { by('what').focus(); by('what').select(); },
+      ' ': () => event.target.matches('button') ? false : go(),
+      ',': () => step(-1), '.': () => step(1), '?': keysDialog,
+      w: () => { if (!detail.name) return false; watch.add(detail.name); tell(`${detail.name} is watched`); },
+      1: () => showTab('ladder'), 2: () => showTab('watch'), 3: () => showTab('io'), 4: () => showTab('log'),
+    };
+    if (inside && tab === 'ladder' && !event.target.matches('input'))
+      Object.assign(acts, {ArrowDown: () => pane.move(1), ArrowUp: () => pane.move(-1),
+        ArrowRight: () => pane.moveElement(1), ArrowLeft: () => pane.moveElement(-1),
+        Home: () => pane.goRung(index.numbers.find(number => number)),
+        End: () => pane.goRung(index.numbers.findLast(number => number)),
+        Enter: () => event.target.matches('button, a') ? false : pane.moveElement(event.shiftKey ? -1 : 1)});
+    const act = acts[event.key];
+    if (act && act() !== false) event.preventDefault();
+  });
+}
+
+function list(texts) {
+  const box = make('ul', 'plain');
+  for (const text of texts) box.append(make('li', '', text));
+  return box;
+}
+
+start().catch(error => { by('state').textContent = 'Cannot be shown'; tell(error.message, true); });

@@ -1,0 +1,291 @@
+// The pane of rungs: rows at known heights, of which only those near the visible part exist.
+import {get} from './link.js';
+
+const kBeyond = 600;  // pixels drawn above and below the visible part
+const kCached = 600;  // rows whose HTML is kept
+const kChunk = 40;
+const kKinds = {f: 'file', m: 'module', s: 'section', c: 'comment', r: 'rung', d: 'chart'};
+
+// Drawings are cut for narrow windows, as app.css has it.
+export const isNarrow = () => innerWidth <= 760;
+
+export class Pane {
+  constructor(pane, space, index, narrow, chosen) {
+    this.pane = pane;
+    this.space = space;
+    this.index = index;
+    this.narrow = narrow;
+    this.chosen = chosen;  // called with the element that was clicked
+    this.measure();
+    this.rungRow = new Map();
+    index.numbers.forEach((number, row) => { if (number) this.rungRow.set(number, row); });
+    this.cache = new Map();   // row: [html, name]
+    this.asked = new Set();   // chunks on their way
+    this.shown = new Map();   // row: its element
+    this.flows = {};
+    this.texts = {};
+    this.forcedIds = new Set();
+    this.causes = new Map();
+    this.focusRow = -1;
+    this.onrange = () => {};
+    pane.addEventListener('scroll', () => this.soon(), {passive: true});
+    new ResizeObserver(() => this.resized()).observe(pane);
+    space.addEventListener('click', event => this.click(event));
+    this.soon();
+  }
+
+  // Where the rows are.
+  measure() {
+    this.tops = [0];
+    for (const height of this.index.heights) this.tops.push(this.tops[this.tops.length - 1] + height);
+    this.space.style.height = this.tops[this.tops.length - 1] + 200 + 'px';
+  }
+
+  // A pane that becomes narrow, or wide again, has other drawings.
+  async resized() {
+    const narrow = isNarrow();
+    if (!this.pane.clientWidth || narrow === this.narrow) return this.soon();
+    this.narrow = narrow;
+    const at = this.focusRow >= 0 ? this.focusRow : this.visible()[0];
+    this.index.heights = (await get('index?narrow=' + Number(narrow))).heights;
+    this.cache.clear();
+    for (const element of this.shown.values()) element.remove();
+    this.shown.clear();
+    this.measure();
+    this.pane.scrollTop = this.tops[at];
+    this.soon();
+  }
+
+  soon() {
+    if (this.waiting) return;
+    this.waiting = true;
+    requestAnimationFrame(() => { this.waiting = false; this.show(); });
+  }
+
+  rowAt(y) {
+    let low = 0, high = this.index.heights.length;
+    while (low < high) {
+      const middle = (low + high) >> 1;
+      if (this.tops[middle + 1] <= y) low = middle + 1; else high = middle;
+    }
+    return Math.min(low, this.index.heights.length - 1);
+  }
+
+  visible() {
+    const top = this.pane.scrollTop, bottom = top + this.pane.clientHeight;
+    return [this.rowAt(top), this.rowAt(bottom) + 1];
+  }
+
+  show() {
+    if (!this.index.heights.length || !this.pane.clientHeight) return;
+    const first = this.rowAt(Math.max(0, this.pane.scrollTop - kBeyond));
+    const end = this.rowAt(this.pane.scrollTop + this.pane.clientHeight + kBeyond) + 1;
+    for (const [row, element] of this.shown)
+      if (row < first || row >= end) { element.remove(); this.shown.delete(row); }
+    for (let row = first; row < end; ++row) {
+      if (this.cache.has(row)) this.put(row); else this.ask(row);
+    }
+    this.range = [first, end];
+    this.onrange(this.range);
+  }
+
+  async ask(row) {
+    const chunk = Math.floor(row / kChunk), narrow = this.narrow;
+    if (this.asked.has(chunk)) return;
+    this.asked.add(chunk);
+    try {
+      const range = `from=${chunk * kChunk}&to=${(chunk + 1) * kChunk}&narrow=${Number(narrow)}`;
+      for (const [number, html, name] of await get('rungs?' + range))
+        if (narrow === this.narrow) this.cache.set(number, [html, name]);
+      while (this.cache.size > kCached) {
+        const oldest = [...this.cache.keys()].find(one => !this.shown.has(one));
+        if (oldest === undefined) break;
+        this.cache.delete(oldest);
+      }
+    } catch { /* it is asked for again */ }
+    this.asked.delete(chunk);
+    this.soon();
+  }
+
+  put(row) {
+    if (this.shown.has(row)) return;
+    const kind = this.index.kinds[row];
+    const element = document.createElement(kind === 'r' ? 'article' : 'div');
+    const [html, name] = this.cache.get(row);
+    element.className = 'row is-' + kKinds[kind];
+    element.style.top = this.tops[row] + 'px';
+    element.style.height = this.index.heights[row] + 'px';
+    element.dataset.row = row;
+    element.innerHTML = html;
+    if (kind === 'r') {
+      element.id = 'r' + this.index.numbers[row];
+      element.dataset.rung = this.index.numbers[row];
+      element.tabIndex = row === this.focusRow ? 0 : -1;
+      element.setAttribute('role', 'listitem');
+      element.setAttribute('aria-label', name);
+      element.rungName = name;
+    }
+    if (kind === 'r' || kind === 'd') {
+      element.cells = new Map();
+      for (const one of element.querySelectorAll('[data-n],[data-c]')) {
+        const cell = Number(one.dataset.n ?? one.dataset.c);
+        if (!element.cells.has(cell)) element.cells.set(cell, []);
+        element.cells.get(cell).push(one);
+      }
+    }
+    this.space.append(element);
+    this.shown.set(row, element);
+    if (row === this.focusRow) element.classList.add('now');
+    this.paint(row);
+    this.markForced(element);
+    this.markCauses(row, element);
+  }
+
+  // The elements that decided, by row, as *why* has found them.
+  setCauses(causes) {
+    this.causes = causes;
+    for (const [row, element] of this.shown) this.markCauses(row, element);
+  }
+
+  markCauses(row, element) {
+    const names = this.causes.get(row);
+    element.classList.toggle('reason', names !== undefined);
+    for (const one of element.querySelectorAll('.k'))
+      one.classList.toggle('cause', names !== undefined && names.includes(one.dataset.name));
+  }
+
+  // The power in a rung. Every element says in data-on whether it is on; wires, whether they have power.
+  paint(row) {
+    const element = this.shown.get(row);
+    if (!element || !element.cells) return;
+    const flow = this.flows[row];
+    if (flow !== undefined && element.dataset.flow !== flow) {
+      element.dataset.flow = flow;
+      element.classList.toggle('idle', flow === '');
+      for (const [cell, parts] of element.cells) {
+        const state = flow ? flow.charCodeAt(cell) - 48 : -3;
+        for (const part of parts) {
+          const on = state < 0 ? '' : (part.dataset.n !== undefined ? state & 2 : state & 1) ? '1' : '0';
+          if (part.dataset.on !== on) part.dataset.on = on;
+        }
+      }
+      if (document.activeElement === element) this.describe(element);
+    }
+    for (const text of element.querySelectorAll('.v')) {
+      const value = this.texts[row + '.' + text.dataset.v];
+      const shown = value === undefined ? '' : value;
+      if (text.textContent !== shown) text.textContent = shown;
+    }
+  }
+
+  // All rows of a picture at once: what is drawn is always of one scan.
+  draw(picture) {
+    this.flows = picture.rows;
+    this.texts = picture.texts;
+    const forced = new Set(picture.forces.flatMap(cell => cell.ids));
+    const same = forced.size === this.forcedIds.size && [...forced].every(id => this.forcedIds.has(id));
+    this.forcedIds = forced;
+    for (const [row, element] of this.shown) {
+      this.paint(row);
+      if (!same) this.markForced(element);
+    }
+    this.space.dataset.scan = picture.scan;
+  }
+
+  markForced(element) {
+    for (const one of element.querySelectorAll('.forced')) one.classList.remove('forced');
+    for (const mark of element.querySelectorAll('.mark-forced')) mark.remove();
+    if (!this.forcedIds.size) return;
+    for (const one of element.querySelectorAll('[data-id]')) {
+      if (!this.forcedIds.has(Number(one.dataset.id))) continue;
+      one.classList.add('forced');
+      const box = one.querySelector('rect');
+      if (!box) continue;
+      const mark = document.createElementNS('http://www.w3.org/2000/svg', 'text');
+      mark.setAttribute('class', 'mark-forced');
+      mark.setAttribute('x', Number(box.getAttribute('x')) + Number(box.getAttribute('width')) + 3);
+      mark.setAttribute('y', Number(box.getAttribute('y')) + 4);
+      mark.textContent = 'F';
+      one.append(mark);
+    }
+  }
+
+  // The rung in words, for those who hear it.
+  describe(element) {
+    const words = [];
+    for (const one of element.querySelectorAll('.st[data-on="1"]')) words.push(`continues at step ${one.dataset.step}`);
+    for (const one of element.querySelectorAll('[data-name]')) {
+      const on = one.dataset.on, coil = one.classList.contains('o'), box = one.classList.contains('x');
+      const state = on === '' || on === undefined ? 'not evaluated' :
+        coil ? (on === '1' ? 'on' : 'off') : box ? (on === '1' ? 'has power' : 'no power') :
+        on === '1' ? 'conducts' : 'does not conduct';
+      words.push(`${one.dataset.name} ${state}${one.classList.contains('forced') ? ', forced' : ''}`);
+    }
+    element.setAttribute('aria-label', `${element.rungName}. ${words.join('; ')}`);
+  }
+
+  go(row, focus = true) {
+    if (row === undefined) return;
+    const top = this.tops[row], height = this.index.heights[row];
+    const inside = top >= this.pane.scrollTop && top + height <= this.pane.scrollTop + this.pane.clientHeight;
+    if (!inside) this.pane.scrollTop = Math.max(0, top - Math.max(12, (this.pane.clientHeight - height) / 3));
+    this.shown.get(this.focusRow)?.classList.remove('now');
+    this.focusRow = row;
+    this.show();
+    const there = () => {
+      const element = this.shown.get(row);
+      if (!element) return void setTimeout(there, 40);
+      element.classList.add('now');
+      element.tabIndex = 0;
+      if (focus) { element.focus({preventScroll: true}); this.describe(element); }
+    };
+    there();
+  }
+
+  goRung(number) { this.go(this.rungRow.get(number)); }
+
+  // The next or previous rung from the focused one.
+  move(step) {
+    let row = this.focusRow < 0 ? this.visible()[0] - step : this.focusRow;
+    do row += step; while (row >= 0 && row < this.index.kinds.length && this.index.kinds[row] !== 'r');
+    if (row >= 0 && row < this.index.kinds.length) this.go(row);
+  }
+
+  // The next or previous element of the focused rung.
+  moveElement(step) {
+    const element = this.shown.get(this.focusRow);
+    if (!element) return;
+    const all = [...element.querySelectorAll('[data-c]')].sort((a, b) => a.dataset.c - b.dataset.c);
+    const at = all.findIndex(one => one.classList.contains('at'));
+    const next = all[(at < 0 && step < 0 ? all.length - 1 : at + step + all.length) % all.length];
+    this.select(next);
+  }
+
+  select(one) {
+    for (const old of this.space.querySelectorAll('.at')) old.classList.remove('at');
+    if (!one) return;
+    one.classList.add('at');
+    this.chosen(one);
+  }
+
+  click(event) {
+    const link = event.target.closest('a');
+    const article = event.target.closest('article');
+    if (link) {
+      event.preventDefault();
+      const [kind, id] = [link.getAttribute('href')[1], Number(link.getAttribute('href').slice(2))];
+      if (kind === 'r') this.goRung(id); else this.chosen({dataset: {id, name: link.textContent}});
+      return;
+    }
+    if (!article) return;
+    const row = Number(article.dataset.row);
+    if (row !== this.focusRow) {
+      this.shown.get(this.focusRow)?.classList.remove('now');
+      this.focusRow = row;
+      article.classList.add('now');
+      article.tabIndex = 0;
+    }
+    const one = event.target.closest('[data-c]');
+    if (one) this.select(one);
+  }
+}

@@ -1,0 +1,104 @@
+// What sources have in common that run a program, or play one, on a thread of this process: they run at the pace of the
+// program's clock, make pictures, and do what pages ask for between two scans.
+#pragma once
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <future>
+#include <map>
+#include <mutex>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "ir/core/memory_use.h"
+#include "rtlib/nc/control/control.h"
+#include "rtlib/run/instance.h"
+#include "sim/simulated_nc.h"
+#include "tools/web/element_states.h"
+#include "tools/web/shown_program.h"
+#include "tools/web/source.h"
+
+namespace rung::web {
+
+class PacedSource : public Source {
+public:
+  // Runs at the pace of the program's clock until `ended`, which is asked often, returns true.
+  void run(const std::function<bool()>& ended);
+
+  std::shared_ptr<const Picture> picture(const std::string& page, const std::vector<std::string>& names, uint64_t after,
+                                         std::chrono::milliseconds wait) override;
+  Result<std::string> execute(const Order& order) override;
+  std::vector<Event> events(uint64_t after) override;
+  Result<Why> why(const std::string& name) override;
+  Result<ScanTrace> trace(const std::vector<std::string>& names, uint64_t scans) override;
+
+protected:
+  // All of the following are called by the thread of run().
+
+  // Continues by a scan. False: there is none, and the source pauses.
+  virtual bool nextScan() = 0;
+  virtual int64_t nowUs() const = 0;
+  virtual uint64_t shownScan() const = 0;
+  virtual uint64_t firstScan() const = 0; // how far back it can go
+  // Shows another scan, between the first and the last one.
+  virtual Result<std::string> seek(uint64_t scan) = 0;
+  virtual std::string valueOf(const std::string& name) const = 0; // "": there is no such name
+  virtual Result<std::string> carryOut(const Order& order) = 0;
+  virtual Result<Why> explain(const std::string& name) = 0;
+  // All but the revision and the number of the last event.
+  virtual void fill(Picture& picture, const std::set<std::string>& names) = 0;
+
+  void log(std::string kind, std::string text, uint64_t scan, int64_t us);
+  // Logs which messages have come and gone since the last call.
+  void compareMessages(const runtime::Instance& instance, const nc::Control& control, uint64_t scan);
+
+  bool running_ = true;
+
+private:
+  using Clock = std::chrono::steady_clock;
+  struct Follower {
+    std::vector<std::string> names;
+    Clock::time_point asked;
+  };
+  // Something for the thread of run() to do. It is called with false if the program has ended.
+  using Task = std::function<void(bool runs)>;
+  template <class T>
+  Result<T> hand(std::function<Result<T>()> act);
+  Result<ScanTrace> readTrace(const std::vector<std::string>& names, uint64_t scans);
+  bool takeTasks(std::unique_lock<std::mutex>& lock);
+  std::set<std::string> followed();
+  void publish(const std::set<std::string>& names);
+
+  std::vector<nc::ShownMessage> messages_; // of the thread of run()
+
+  std::mutex mutex_;             // protects what follows
+  std::condition_variable news_; // for pages: a picture
+  std::condition_variable work_; // for run(): tasks, a page that looks at something else
+  std::shared_ptr<const Picture> picture_;
+  std::map<std::string, Follower> followers_; // by page
+  bool stale_ = true;                         // a page follows what the picture does not have
+  std::deque<Task> tasks_;
+  std::deque<Event> events_;
+  uint64_t lastEvent_ = 0;
+  bool ended_ = false;
+};
+
+// The messages that the operator sees.
+std::vector<ShownMessage> messagesOf(const runtime::Instance& instance, const nc::Control& control);
+
+// The bits of the names in a program's lists.
+class NamePlaces {
+public:
+  // Also sets the contacts whose bits never change.
+  NamePlaces(const ShownProgram& program, const runtime::Instance& instance, const sim::SimulatedNc& nc,
+             ElementStates& states);
+  // NameRow::id of the names that have bits of the place.
+  std::vector<uint32_t> at(const ir::BitRange& place) const;
+
+private:
+  std::vector<std::pair<ir::BitRange, uint32_t>> places_;
+};
+
+} // namespace rung::web

@@ -1,0 +1,120 @@
+// A program as the page shows it: rows from top to bottom, of known heights, so that only those are drawn that are
+// looked at; and the elements whose power the page shows. Immutable once made: any thread.
+#pragma once
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <vector>
+
+#include "tools/view/layout.h"
+#include "tools/view/program.h"
+
+namespace rung::web {
+
+// What is known of an element (a contact, a coil, a box, a step of a chart) after a scan. A set of bits.
+enum ElementState : uint8_t {
+  kEvaluated = 1, // in this scan
+  kOn = 2,        // a contact conducts, a coil or a box has power, a unit continues at this step
+  kResultKnown = 4,
+  kResult = 8,    // a box has power at its output, or conducts
+  kConducts = 16, // the result of a box, such as a comparison, is like that of a contact
+  kConstant = 32, // a contact whose bit never changes
+};
+
+// What the page shows as a row.
+struct Row {
+  enum class Kind : uint8_t { File, Module, Section, Comment, Rung, Chart };
+  Kind kind = Kind::Comment;
+  int height = 0;      // pixels, on a wide page
+  uint32_t number = 0; // of a rung, as drawn
+  uint32_t index = 0;  // of a rung: in the figures of the drawing; of a chart: in its charts
+  uint32_t firstElement = 0;
+  uint32_t elements = 0;
+};
+
+class ShownProgram {
+public:
+  explicit ShownProgram(view::Program program);
+
+  const std::string& title() const { return drawing_.title; }
+  const std::string& control() const { return drawing_.control; }
+  std::span<const Row> rows() const { return rows_; }
+  std::vector<view::ContentsEntry> contents() const;
+  const view::Program& drawing() const { return drawing_; }
+  const std::vector<view::NameTable>& tables() const { return drawing_.tables; }
+  uint32_t elementCount() const { return elements_; }
+  // Pixels of the row. `narrow`: drawings are cut to the width of a phone, so that they are higher.
+  int heightOf(uint32_t row, bool narrow) const { return narrow ? narrow_[row] : rows_[row].height; }
+
+  // The element at a position of the sources. Column 0: the only one that begins on the line. Nothing: none is shown.
+  std::optional<uint32_t> elementAt(std::string_view file, uint32_t line, uint32_t column) const;
+  // The row of a rung by its number.
+  std::optional<uint32_t> rowOf(uint32_t rung) const;
+  // "Rung 3: start/stop latch"; "" for other rows.
+  std::string nameOf(uint32_t row) const;
+
+  // The title of a rung, the text of a heading or comment.
+  const std::string& titleOf(uint32_t row) const;
+
+  // The row as HTML.
+  std::string html(uint32_t row, bool narrow) const;
+  // The power in a rung, a character for each of its elements: '-' not evaluated in this scan, otherwise '0' plus 1 if
+  // it is on, 2 if there is power after it. "" for a row without elements, or if the rung did not run. `states`: of
+  // all elements.
+  std::string flow(uint32_t row, std::span<const uint8_t> states) const;
+
+  // The contacts of the drawing.
+  struct Contact {
+    uint32_t element = 0;
+    std::string_view name; // as written
+    bool negated = false;
+  };
+  std::vector<Contact> contacts() const;
+
+  // The steps of charts at which units may continue.
+  struct Step {
+    uint32_t element = 0;
+    std::string_view continuation; // key of the ir::Continuation
+    std::vector<uint32_t> states;  // its values that mean this step
+  };
+  std::vector<Step> steps() const;
+
+  // A place whose value the row shows, as written, and where.
+  struct ShownValue {
+    std::string name;
+    uint32_t element = 0; // of the row
+    uint32_t operand = 0;
+  };
+  std::vector<ShownValue> values(uint32_t row) const;
+
+private:
+  using Key = std::tuple<std::string, uint32_t, uint32_t>; // file, line, column
+  // How power goes through a sheet: the cells from left to right, and for each those that it comes from.
+  struct Path {
+    std::vector<uint32_t> order;
+    std::vector<std::vector<uint32_t>> from;
+  };
+  void addFigure(uint32_t index);
+  void addChart(uint32_t index);
+  void addRow(Row row);
+  const view::Chart* chartOf(const Row& row) const; // null: the row has no chart
+  view::Picture pictureOf(const view::Figure& figure, bool narrow) const;
+  std::string rungHtml(uint32_t row, bool narrow) const;
+  std::string drawingHtml(const Row& row, bool narrow) const;
+  static Path pathOf(const view::Sheet& sheet);
+
+  view::Program drawing_;
+  std::vector<Path> paths_; // by figure
+  std::vector<Row> rows_;
+  std::vector<int> narrow_; // heights on a narrow page, by row
+  std::map<uint32_t, uint32_t> rowsByRung_;
+  std::map<Key, uint32_t, std::less<>> byPlace_;
+  uint32_t elements_ = 0;
+  int rail_ = 0;
+};
+
+} // namespace rung::web

@@ -1,0 +1,104 @@
+// Where the page's pictures come from: a program that runs in this process, a machine that is followed, a recording.
+#pragma once
+#include <chrono>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ir/support/result.h"
+
+namespace rung::web {
+
+enum class RunState : uint8_t { Running, Paused, Past, Fault, Lost };
+
+struct ShownMessage {
+  std::string number; // as operators know it
+  std::string text;
+};
+
+struct ForcedCell {
+  std::string name;
+  std::string value;
+  std::vector<uint32_t> rows; // NameRow::id of the names of this cell
+};
+
+// Everything that the page shows of one scan.
+struct Picture {
+  uint64_t revision = 0; // larger in every picture
+  uint64_t scan = 0;
+  int64_t us = 0; // on the program's clock
+  RunState state = RunState::Running;
+  std::string fault;
+  std::vector<uint8_t> elements;             // by element of the program (ElementState)
+  std::map<std::string, std::string> values; // of what is followed: by name
+  std::vector<ShownMessage> messages;
+  std::vector<ForcedCell> forces;
+  uint64_t firstScan = 0; // how far back it can go
+  uint64_t lastScan = 0;  // the newest one
+  uint64_t lastEvent = 0; // number of the newest entry of the log
+};
+
+// What a page wants done.
+struct Order {
+  enum class Kind : uint8_t { Run, Pause, Step, Seek, Set, Force, Unforce, Statement };
+  Kind kind = Kind::Pause;
+  int64_t scans = 0; // Step: forwards or backwards; Seek: to this scan
+  std::string name;  // Set, Force, Unforce; Statement: the whole line
+  std::string value;
+};
+
+struct Event {
+  uint64_t number = 0;
+  uint64_t scan = 0;
+  int64_t us = 0;
+  std::string kind; // "message", "gone", "fault", "set", "force", "mark"
+  std::string text;
+};
+
+// A step of the chain that leads to a value.
+struct WhyStep {
+  uint32_t depth = 0;
+  std::string text;
+  uint64_t scan = 0;               // since when
+  std::optional<uint32_t> row;     // of the rung that wrote
+  std::vector<std::string> causes; // names that decided in it
+};
+
+struct Why {
+  std::string text;
+  std::vector<WhyStep> steps; // empty: the text is all
+};
+
+// Values of names scan by scan, up to the scan that is shown.
+struct ScanTrace {
+  uint64_t firstScan = 0;
+  std::vector<std::vector<std::string>> values; // by name, then by scan
+};
+
+// Any thread may call these.
+class Source {
+public:
+  virtual ~Source() = default;
+  // The newest picture, once it is newer than `after`; after `wait` the same one again. Null: none yet. `page` names a
+  // page, which follows the values of `names`; a page that has not asked for some seconds follows nothing.
+  virtual std::shared_ptr<const Picture> picture(const std::string& page, const std::vector<std::string>& names,
+                                                 uint64_t after, std::chrono::milliseconds wait) = 0;
+  // What was done, in words; fails if it was not.
+  virtual Result<std::string> execute(const Order& order) = 0;
+  // Entries after the one with this number, oldest first; at most kMostEvents are kept.
+  static constexpr size_t kMostEvents = 1000;
+  virtual std::vector<Event> events(uint64_t after) = 0;
+  // Why the value of a name is what it is, at the picture that is shown.
+  virtual Result<Why> why(const std::string& name) = 0;
+  // The values of these names in the last `scans` scans; a name that does not exist has the value "".
+  virtual Result<ScanTrace> trace(const std::vector<std::string>& names, uint64_t scans) = 0;
+  // Whether there is a newest scan that becomes older: false for what has ended.
+  virtual bool isLive() const = 0;
+  // Whether pages may write: "" or why not.
+  virtual std::string mayWrite() const = 0;
+};
+
+} // namespace rung::web

@@ -179,8 +179,8 @@ private:
     const std::optional<double> size = text::numberOf(node);
     if (!size || !(*size >= kLeastLog && *size <= kMostLog)) return false;
     if (logAt_)
-      fail(positionOf(node), "log.size: found a second one, expected only that of " + lineOf(*logAt_) +
-                                 "; remove one of them");
+      fail(positionOf(node),
+           "log.size: found a second one, expected only that of " + lineOf(*logAt_) + "; remove one of them");
     logAt_ = positionOf(node);
     map.logBytes = static_cast<uint64_t>(*size * kMegabyte);
     return true;

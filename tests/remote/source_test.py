@@ -95,7 +95,7 @@ class Reload(SourceHost):
 
     def test_more_than_ten_warnings_are_not_shown(self):
         def warnings(count):
-            coils = "".join(f"LD   X0.0\nOUT  R{i}.0\nLDI  X0.0\nOUT  R{i}.0\n" for i in range(count))
+            coils = "".join(f"LD   X0.0\nOUT  Y{i + 1}.0\nLDI  X0.0\nOUT  Y{i + 1}.0\n" for i in range(count))
             edited = self.source(PROGRAM.replace("FUNC END2", coils + "FUNC END2"))
             done = subprocess.run([BIN / "rungctl", "reload", edited], capture_output=True, text=True, env=self.environment, timeout=patience())
             self.assertEqual(done.returncode, OK, done.stderr)

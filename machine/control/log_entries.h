@@ -84,7 +84,7 @@ class LogEntries {
 public:
   static constexpr size_t kMost = 1000; // entries in memory; the oldest ones are dropped
   static constexpr size_t kMostShown = 1000;
-  static constexpr size_t kMostText = 2000; // bytes; longer texts are cut
+  static constexpr size_t kMostText = 2000;  // bytes; longer texts are cut
   static constexpr int64_t kPauseS = 10;     // between two lines of an entry that keeps changing
   static constexpr uint32_t kMostLines = 50; // per second
 

@@ -366,16 +366,21 @@ def unload(bench, _options):
 
 
 def retained(bench, _options):
-    """D continues where the last session stopped; a place that cannot be written stops the loading."""
+    """D and the log continue where the last session stopped; a place that cannot be written stops the loading."""
     bench.program(HERE / "stuck.pmc")
     kept = 'out.kept = { type = "s32", name = "D4:4" }\n'
     bench.file("program.map", 'in.number = { type = "s32", name = "D4:4" }\n' + kept)
     bench.file("first.map", kept)
     load = LOAD.format(options="retain=@DIR@/memory", prefix="rung")
-    show = until("rung.kept = 4711") + "show pin rung.kept\n"
+    show = until("rung.kept = 4711") + "show pin rung.kept\nloadusr -w @DIR@/rungctl top --once\n"
     bench.halrun(load + "setp rung.number 4711\n" + show)
     done = bench.halrun(load.replace("program.map", "first.map") + show)
     expect(shown(done.stdout, "rung.kept") == ["4711"], shown(done.stdout, "rung.kept"))
+    expect(re.search(r"\nscan: last [\d.]+ us, longest [\d.]+\b", done.stdout), "no times of scans")
+    expect(done.stdout.count("started with the program stuck, code ") == 3, "its start is printed once, and twice in the log")
+    log = bench.home / "memory.log"
+    expect((log.read_text().count("started with"), log.read_text().count("the host has ended")) == (2, 2), "not two sessions in the log")
+    expect(log.owner() == "nobody", log.owner())
     done = bench.halrun(LOAD.format(options="retain=/nowhere/memory", prefix="rung"))
     expect("cannot write /nowhere/memory" in done.stdout, "no message")
 

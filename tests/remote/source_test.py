@@ -93,6 +93,17 @@ class Reload(SourceHost):
         (self.home / name).write_text(text)
         return self.home / name
 
+    def test_more_than_ten_warnings_are_not_shown(self):
+        def warnings(count):
+            coils = "".join(f"LD   X0.0\nOUT  Y{i + 1}.0\nLDI  X0.0\nOUT  Y{i + 1}.0\n" for i in range(count))
+            edited = self.source(PROGRAM.replace("FUNC END2", coils + "FUNC END2"))
+            done = subprocess.run([BIN / "rungctl", "reload", edited], capture_output=True, text=True, env=self.environment, timeout=patience())
+            self.assertEqual(done.returncode, OK, done.stderr)
+            return done.stderr
+
+        self.assertEqual(warnings(10).count("[double-coil]"), 10)
+        self.assertEqual(warnings(11), "more than 10 warnings: `rungc check` shows all\n")
+
     def test_an_edited_source_takes_over(self):
         self.ctl("set", "D8:2", "7")
         edited = self.source(PROGRAM.replace("LD   X0.0", "LDI  X0.0"))

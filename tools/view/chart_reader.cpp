@@ -1,7 +1,6 @@
 // Reads programs of charts (see program.h).
 #include <utility>
 
-#include "ir/support/allowance.h"
 #include "tools/view/program_builder.h"
 
 namespace rung::view {
@@ -52,7 +51,7 @@ void ChartReader::readDeclaration(const Item& item) {
   const frontend::Definition& definition = input_.analysis->definitions()[item.index];
   Named named = names_.of(definition);
   if (named.address == definition.name) named.address.clear();
-  declare(named, definition.name, definition.isConstant(), withoutAllowances(definition.comment));
+  declare(named, definition.name, definition.isConstant(), shownComment(definition.comment));
 }
 
 void ChartReader::read(const Item& item) {

@@ -25,6 +25,11 @@ bool isNumber(std::string_view address) {
 
 } // namespace
 
+std::string shownComment(std::string_view comment) {
+  std::string text = withoutAllowances(comment);
+  return text.ends_with(':') ? std::string() : text;
+}
+
 Names::Names(const frontend::Dialect& dialect, const frontend::Analysis& analysis,
              const report::CrossReference& reference)
     : analysis_(analysis), reference_(reference) {
@@ -87,7 +92,7 @@ Named Names::of(const frontend::Definition& definition) {
     named.address = definition.value;
     named.key = definition.name;
   }
-  named.comment = withoutAllowances(definition.comment);
+  named.comment = shownComment(definition.comment);
   return named;
 }
 
@@ -123,12 +128,12 @@ Named Names::lookUp(const frontend::OperandUse* use, const frontend::Definition*
   if (use->base != frontend::kNoDefinition) {
     named.address = named.key + std::string(use->computed);
     const frontend::Definition& base = analysis_.definitions()[use->base];
-    named.comment = withoutAllowances(base.comment);
+    named.comment = shownComment(base.comment);
     const auto meaning = base.range.valid() ? meanings_.end() : meanings_.find(base.name);
     if (named.comment.empty() && meaning != meanings_.end()) named.comment = meaning->second;
   } else if (const auto known = byAddress_.find(named.key); known != byAddress_.end()) {
     named.address = known->second.name;
-    named.comment = withoutAllowances(known->second.comment);
+    named.comment = shownComment(known->second.comment);
   } else if (isNumber(operand) && !isNumber(named.key)) {
     named.address = named.key; // 0030.12 of NCT is INP000.12
   }

@@ -16,6 +16,10 @@
 
 namespace rung::view {
 
+// A declaration's comment without allowances, and without what only explains one: "until power off:
+// allow(never-reset)".
+std::string shownComment(std::string_view comment);
+
 struct Named {
   std::string address; // for a name, its address; for an address, the name declared for it; never the operand itself
   std::string comment;

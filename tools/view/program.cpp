@@ -11,7 +11,6 @@
 #include "frontend/ladder/text/drawing.h"
 #include "frontend/network/address.h"
 #include "frontend/network/read/canonical.h"
-#include "ir/support/allowance.h"
 #include "ir/support/check.h"
 #include "rtlib/text/blanks.h"
 #include "rtlib/text/letters.h"
@@ -140,7 +139,7 @@ void Reader::readDeclaration(const Declaration& declaration) {
   comments_.clear();
   if (frontend::ladder::holdsText(declaration.kind)) return;
   declare(names_.find(declaration.name), declaration.name.text, declaration.kind == DeclarationKind::Const,
-          withoutAllowances(declaration.comment));
+          shownComment(declaration.comment));
 }
 
 void Reader::readRung(const LadderFile& file, const frontend::ladder::Rung& rung, std::string_view remark) {
@@ -200,7 +199,7 @@ void Reader::titleFromSymbol(Block& block, std::string_view subprogram) const {
     for (const Declaration& declaration : file.declarations)
       if (declaration.kind == DeclarationKind::Symbol && text::equalsIgnoringCase(declaration.value.text, subprogram)) {
         block.title = declaration.name.text;
-        if (block.comment.empty()) block.comment = withoutAllowances(declaration.comment);
+        if (block.comment.empty()) block.comment = shownComment(declaration.comment);
         return;
       }
 }

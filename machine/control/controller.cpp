@@ -150,13 +150,13 @@ json Controller::mark(const Peer& peer, const json& request) {
   if (text.size() > kMost)
     throw Refused("found a text of " + std::to_string(text.size()) + " bytes, expected at most 400");
   checkRecorded(rung_instance_mark(plc_.instance(), text.c_str()));
-  plc_.logChange(peer, "mark " + text);
+  plc_.logChange(peer, LogKind::Mark, "mark " + text);
   return json::object();
 }
 
 json Controller::keep(const Peer& peer, const json&) {
   checkRecorded(rung_instance_keep_recording(plc_.instance()));
-  plc_.logChange(peer, "keep the recording of now");
+  plc_.logChange(peer, LogKind::Mark, "keep the recording of now");
   return json::object();
 }
 

@@ -35,10 +35,11 @@ enum class LogKind : uint8_t {
   Reload,
   Rollback,
   Profile,
+  Mark, // also that a recording is kept
 };
 inline constexpr std::string_view kLogKinds[] = {
-    "message", "note",  "fault", "restart", "report",  "host",   "acknowledge", "start",    "stop",   "reset",
-    "set",     "event", "force", "unforce", "compile", "shadow", "reload",      "rollback", "profile"}; // by LogKind
+    "message", "note",  "fault",   "restart", "report", "host",   "acknowledge", "start",   "stop", "reset", "set",
+    "event",   "force", "unforce", "compile", "shadow", "reload", "rollback",    "profile", "mark"}; // by LogKind
 
 // Times are in seconds since 1970.
 struct LogEntry {

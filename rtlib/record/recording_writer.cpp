@@ -97,7 +97,7 @@ RecordingWriter::RecordingWriter(PartStream& stream, RecordingMode mode, const R
                                  const OpenFile& open)
     : stream_(stream), mode_(mode), options_(options), open_(open), run_(randomNumber()) {
   std::error_code problem;
-  std::filesystem::create_directories(options_.folder, problem);
+  std::filesystem::create_directory(options_.folder, problem);
   if (problem) throw std::runtime_error("cannot make the folder " + options_.folder + ": " + problem.message());
   lock_ = lockDiskFile(options_.folder + "/lock");
   if (!lock_.file.ok())

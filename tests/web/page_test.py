@@ -279,6 +279,23 @@ class Recorded(unittest.TestCase):
             live.close()
 
 
+class Listed(unittest.TestCase):
+    def test_conditions_in_the_source(self):
+        """A TECHNOL program has no drawing: its source is shown, and in it which conditions hold."""
+        live = Live(RUNGC, ROOT / "examples" / "technol-mill")
+        page = Browser()
+        try:
+            page.open(live.link)
+            page.find("#what").send_keys("23", Keys.ENTER)
+            page.until("return document.querySelectorAll('#r23 .el').length >= 3", "conditions")
+            page.until("return [...document.querySelectorAll('#r23 .el')].every(e => /[01]/.test(e.dataset.on))", "their state")
+            page.until("return document.querySelectorAll('.el[data-on=\"1\"]').length > 0", "one that holds")
+            self.assertEqual(page.errors(), [])
+        finally:
+            page.close()
+            live.close()
+
+
 class Alternating(unittest.TestCase):
     def test_one_scan_at_a_time(self):
         """X alternates; two rungs read X and not X, and no picture has them both on, or both off."""

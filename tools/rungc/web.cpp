@@ -15,7 +15,8 @@ namespace rung::rungc {
 namespace {
 
 // The program as the page shows it, read again from its files; fails if they have been changed.
-Result<web::ShownProgram> shownProgram(const std::string& title, const compiler::Compiled& compiled) {
+Result<web::ShownProgram> shownProgram(const std::string& title, const compiler::Compiled& compiled,
+                                       const replay::Elements& elements) {
   SourceManager sources;
   const Result<std::vector<FileId>> files =
       compiler::addFiles(sources, compiled.module->files, compiled.options.config);
@@ -28,7 +29,7 @@ Result<web::ShownProgram> shownProgram(const std::string& title, const compiler:
     auto listing = view::listedProgram(sources, files.value(), *compiled.dialect, compile, diagnostics);
     if (!listing) return failure(changed);
     if (!title.empty()) listing->title = title;
-    return web::ShownProgram(std::move(*listing), *compiled.shape, compiled.marks);
+    return web::ShownProgram(std::move(*listing), elements);
   }
   auto drawing = view::drawnProgram(sources, files.value(), *compiled.dialect, compile, diagnostics);
   if (!drawing) return failure(changed);
@@ -61,7 +62,7 @@ std::string listenProblem(const std::string& listen) {
 int serveSession(const std::string& title, const std::string& listen, const compiler::Compiled& compiled,
                  scenario::Session& session, const scenario::Explainer& explainer, replay::FlowEngine& engine,
                  const std::function<bool()>& ended) {
-  const Result<web::ShownProgram> program = shownProgram(title, compiled);
+  const Result<web::ShownProgram> program = shownProgram(title, compiled, engine.elements());
   if (!program.ok()) return environmentError(program.error());
   web::SessionSource source(session, explainer, program.value(), engine);
   return serve(listen, program.value(), source, ended);
@@ -69,7 +70,7 @@ int serveSession(const std::string& title, const std::string& listen, const comp
 
 int servePast(const std::string& title, const std::string& listen, replay::Past& past,
               const std::function<bool()>& ended) {
-  const Result<web::ShownProgram> program = shownProgram(title, past.compiled());
+  const Result<web::ShownProgram> program = shownProgram(title, past.compiled(), past.flowEngine().elements());
   if (!program.ok()) return environmentError(program.error());
   web::PastSource source(past, program.value());
   return serve(listen, program.value(), source, ended);

@@ -136,18 +136,13 @@ std::string ShownProgram::figureHtml(uint32_t row, bool narrow) const {
 
 // ---- a listing -----------------------------------------------------------------------------------------------------
 
-ShownProgram::ShownProgram(view::Listing listing, const ir::Module& module, const ir::Marks& marks)
-    : texts_(std::move(listing.texts)) {
+ShownProgram::ShownProgram(view::Listing listing, const replay::Elements& elements) : texts_(std::move(listing.texts)) {
   drawing_.title = std::move(listing.title);
   drawing_.control = std::move(listing.control);
   std::map<uint32_t, std::map<Key, std::string>> byRung;
-  for (uint32_t r = 0; r < module.routines.size(); ++r) {
-    const std::vector<ir::Rung>& rungs = module.routines[r].rungs;
-    for (uint32_t i = 0; i < rungs.size(); ++i)
-      for (const ir::Mark& mark : marks.of({r}, i))
-        if (rungs[i].number != 0 && rungs[i].begin.file.valid())
-          byRung[rungs[i].number].emplace(Key{module.files[rungs[i].begin.file.index], mark.line, mark.column},
-                                          mark.text);
+  for (const replay::Element& element : elements.all()) {
+    const replay::SourceRung& rung = elements.rungs()[element.rung];
+    byRung[rung.number].emplace(Key{rung.file, element.line, element.column}, element.pins[0].text);
   }
   std::string routine;
   for (view::TableRow& one : listing.rows) {

@@ -10,8 +10,7 @@
 #include <tuple>
 #include <vector>
 
-#include "ir/core/marks.h"
-#include "ir/core/module.h"
+#include "tools/replay/elements.h"
 #include "tools/view/drawn_program.h"
 #include "tools/view/layout.h"
 #include "tools/view/program.h"
@@ -44,7 +43,7 @@ public:
   // A program with a drawing.
   explicit ShownProgram(view::Program program);
   // A program without one: its sources by rung, with its conditions and outputs as elements.
-  ShownProgram(view::Listing listing, const ir::Module& module, const ir::Marks& marks);
+  ShownProgram(view::Listing listing, const replay::Elements& elements);
 
   const std::string& title() const { return drawing_.title; }
   const std::string& control() const { return drawing_.control; }

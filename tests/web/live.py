@@ -28,7 +28,8 @@ class Live:
                 raise AssertionError(f"no link: {''.join(printed)[-2000:]}")
             printed.append(line)
             found = LINK.match(line)
-        threading.Thread(target=self.process.stdout.read, daemon=True).start()  # messages of the program
+        self.drain = threading.Thread(target=self.process.stdout.read, daemon=True)  # messages of the program
+        self.drain.start()
         self.link = found.group()
         self.address, self.token = found.groups()
         self.cookie = ""
@@ -62,3 +63,5 @@ class Live:
     def close(self):
         self.process.terminate()
         self.process.wait(timeout=patience())
+        self.drain.join()
+        self.process.stdout.close()

@@ -279,6 +279,25 @@ class Recorded(unittest.TestCase):
             live.close()
 
 
+class Charts(unittest.TestCase):
+    def test_equations_and_steps(self):
+        """Equations of a TECHNOL program are ladders, mechanisms charts with the step at which each continues."""
+        live = Live(RUNGC, ROOT / "examples" / "technol-mill")
+        page = Browser()
+        try:
+            page.open(live.link)
+            page.find("#what").send_keys("23", Keys.ENTER)
+            page.until("return document.querySelectorAll('#r23 .k').length >= 1", "contacts")
+            page.until("return [...document.querySelectorAll('#r23 .k')].every(e => /[01]/.test(e.dataset.on))", "their state")
+            page.until("for (const row of document.querySelectorAll('.row')) if (row.querySelector('.st')) return true;"
+                       "document.getElementById('pane').scrollTop += 300; return false", "a chart")
+            page.until("return document.querySelectorAll('.st[data-on=\"1\"]').length > 0", "the step that continues")
+            self.assertEqual(page.errors(), [])
+        finally:
+            page.close()
+            live.close()
+
+
 class Alternating(unittest.TestCase):
     def test_one_scan_at_a_time(self):
         """X alternates; two rungs read X and not X, and no picture has them both on, or both off."""

@@ -290,7 +290,7 @@ class Charts(unittest.TestCase):
             page.until("return document.querySelectorAll('#r23 .k').length >= 1", "contacts")
             page.until("return [...document.querySelectorAll('#r23 .k')].every(e => /[01]/.test(e.dataset.on))", "their state")
             page.until("for (const row of document.querySelectorAll('.row')) if (row.querySelector('.st')) return true;"
-                       "document.getElementById('pane').scrollTop += 300; return false", "a chart")
+                       "document.getElementById('ladder').scrollTop += 300; return false", "a chart")
             page.until("return document.querySelectorAll('.st[data-on=\"1\"]').length > 0", "the step that continues")
             self.assertEqual(page.errors(), [])
         finally:

@@ -255,7 +255,7 @@ export class Pane {
   moveElement(step) {
     const element = this.shown.get(this.focusRow);
     if (!element) return;
-    const all = [...element.querySelectorAll('[data-c]')].sort((a, b) => a.dataset.c - b.dataset.c);
+    const all = [...element.querySelectorAll('[data-name]')].sort((a, b) => a.dataset.c - b.dataset.c);
     const at = all.findIndex(one => one.classList.contains('at'));
     const next = all[(at < 0 && step < 0 ? all.length - 1 : at + step + all.length) % all.length];
     this.select(next);
@@ -285,7 +285,7 @@ export class Pane {
       article.classList.add('now');
       article.tabIndex = 0;
     }
-    const one = event.target.closest('[data-c]');
+    const one = event.target.closest('[data-name]');
     if (one) this.select(one);
   }
 }

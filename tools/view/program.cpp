@@ -65,7 +65,6 @@ private:
   void flushComments(const Place& place);
   void beginModule(const frontend::ladder::Module& module, std::string_view remark, const Place& place);
   void titleFromSection(Block& block, const frontend::ladder::Module& module);
-  void titleFromSymbol(Block& block, std::string_view subprogram) const;
   std::string keyOfMessage(std::string_view name) const;
   void addMessageTable(DeclarationKind kind, std::string_view title);
   Place placeOf(const LadderFile& file, uint32_t line) const;
@@ -194,16 +193,6 @@ void Reader::titleFromSection(Block& block, const frontend::ladder::Module& modu
   }
 }
 
-void Reader::titleFromSymbol(Block& block, std::string_view subprogram) const {
-  for (const LadderFile& file : files_)
-    for (const Declaration& declaration : file.declarations)
-      if (declaration.kind == DeclarationKind::Symbol && text::equalsIgnoringCase(declaration.value.text, subprogram)) {
-        block.title = declaration.name.text;
-        if (block.comment.empty()) block.comment = shownComment(declaration.comment);
-        return;
-      }
-}
-
 void Reader::beginModule(const frontend::ladder::Module& module, std::string_view remark, const Place& place) {
   std::string name;
   for (const frontend::Word& word : module.name) name.append(name.empty() ? "" : " ").append(word.text);
@@ -213,7 +202,6 @@ void Reader::beginModule(const frontend::ladder::Module& module, std::string_vie
     block.text = "Module " + name;
   } else if (const frontend::TargetUse* subprogram = names_.targetAt(module.name.back())) {
     block.text = fmt::format("Subprogram {}", module.name.back().text);
-    if (block.title.empty()) titleFromSymbol(block, module.name.back().text);
     beginSubprogram(*subprogram);
   } else if (const auto level = language_->findLevel(name)) {
     block.text = fmt::format("Level {}", *level + 1);

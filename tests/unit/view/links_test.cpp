@@ -166,12 +166,12 @@ TEST(ViewContents, SubprogramsHaveTheTitlesOfTheirSections) {
 }
 
 TEST(ViewContents, ACommentOfAnEndIsNotTheTitleOfWhatFollows) {
-  const auto drawn = draw("t.mne", "%@2\nTOOLS P1 *tool changer*\n%\n%@3\nSUB 1\nRD X0.0\nCALL P1\nRD X0.1\nCALL P2\n"
+  const auto drawn = draw("t.mne", "%@3\nSUB 1\nRD X0.0\nCALL P1\nRD X0.1\nCALL P2\n"
                                    "RD X0.2\nCALL P3\n(* END OF LEVEL 2 *)\nSUB 2\n"
                                    "SP P1\nRD X0.0\nWRT Y0.0\n(* END OF P1 *)\nSPE\n"
                                    "SP P2\nRD X0.1\nWRT Y0.1\n(* END OF P2 *)\nSPE\n"
                                    "(* ---- coolant ---- *)\nSP P3\nRD X0.2\nWRT Y0.2\nSPE\nSUB 64\n%\n");
-  EXPECT_EQ(textOf(contentsOf(drawn->program)), "Level 2||1-3\nSubprogram P1|TOOLS|4-4\nSubprogram P2||5-5\n"
+  EXPECT_EQ(textOf(contentsOf(drawn->program)), "Level 2||1-3\nSubprogram P1||4-4\nSubprogram P2||5-5\n"
                                                 "Subprogram P3|coolant|6-6\n");
 }
 

@@ -20,7 +20,7 @@
 namespace rung::runtime {
 
 struct RecordingOptions {
-  std::string folder; // made if it does not exist; the folder that it is in must
+  std::string folder;                        // made if it does not exist; the folder that it is in must
   uint64_t limitBytes = uint64_t{512} << 20; // of segments that are not kept
   uint64_t keptBytes = uint64_t{256} << 20;  // of kept ones
   uint64_t segmentBytes = uint64_t{8} << 20; // after which the next one begins

@@ -22,7 +22,7 @@ CHECK = r"""
 const wrong = [];
 let compared = 0;
 for (const article of document.querySelectorAll('article[data-flow]')) {
-  if (!article.dataset.flow || /[→]/.test(article.querySelector('svg').textContent)) continue;
+  if (!article.dataset.flow) continue;
   const wires = [], key = (x, y) => x + ',' + y, powered = new Set();
   for (const path of article.querySelectorAll('path[data-n]')) {
     let x = 0, y = 0;
@@ -40,6 +40,14 @@ for (const article of document.querySelectorAll('article[data-flow]')) {
     const [, x, y, w, h] = path.getAttribute('d').match(/M(\d+) (\d+)h(\d+)v(\d+)/).map(Number);
     return {x, y, end: x + w, bottom: y + h};
   });
+  // A wire that is cut ends at a number, and continues after it.
+  const ends = new Map(), starts = new Map();
+  for (const text of article.querySelectorAll('svg text')) {
+    const at = [+text.getAttribute('x'), +text.getAttribute('y') - 4];
+    const end = /^→(\d+)$/.exec(text.textContent), start = /^(\d+)→$/.exec(text.textContent);
+    if (end) ends.set(end[1], key(at[0] - 3, at[1]));
+    if (start) starts.set(start[1], [at[0] + 3, at[1]]);
+  }
   for (const wire of wires) {
     if (wire.level && wire.x === 8) powered.add(key(8, wire.y));
     // Of a box it is taken as shown what comes out.
@@ -60,6 +68,7 @@ for (const article of document.querySelectorAll('article[data-flow]')) {
         for (const [x, y] of at) add(x, y);
       }
     }
+    for (const [number, end] of ends) if (powered.has(end)) add(...starts.get(number));
     for (const s of symbols) if (powered.has(key(s.x, s.y)) && (s.on || s.coil)) add(s.end, s.y);
   }
   for (const wire of wires) {

@@ -74,7 +74,7 @@ void HostRecorder::programChanged(std::unique_ptr<runtime::InputBits>& bits) noe
 
 // ---- whole states ------------------------------------------------------------------------------------------------
 
-// The size is known when it is written. If there is too little room for it, the next part tries again with more.
+// The size is known when it is written. If there is too little room for it, false, and `stateBytes_` is enough.
 bool HostRecorder::putWhole(EventWriter& writer) noexcept {
   constexpr size_t kReserve = 1024;
   writer.put(Event::State);
@@ -91,9 +91,20 @@ bool HostRecorder::putWhole(EventWriter& writer) noexcept {
 
 void HostRecorder::putState() noexcept {
   if (inputs_ == nullptr) return;             // the replacement was prepared before the recording
+  const size_t reserved = stateBytes_;
+  bool isPut = putStateInto(reserved);
+  if (!isPut && stateBytes_ > reserved) isPut = putStateInto(stateBytes_); // it has grown
+  if (!isPut) return;
+  inputs_->know(running_.block().data());
+  nowUs_ = running_.nowUs();
+  faulted_ = running_.faulted();
+  servedKnown_ = false;
+}
+
+bool HostRecorder::putStateInto(size_t reserved) noexcept {
   constexpr size_t kOther = 256, kForce = 12; // of the other events
   const size_t room =
-      stateBytes_ + kOther + kForce * running_.forcedBits().size() + inputs_->listed() + roomFor(instance_.configured);
+      reserved + kOther + kForce * running_.forcedBits().size() + inputs_->listed() + roomFor(instance_.configured);
   neededOnly_ = running_.neededCopiesOnly();
   const auto put = [&](EventWriter& writer) noexcept {
     const runtime::Surroundings of = running_.surroundings();
@@ -105,11 +116,7 @@ void HostRecorder::putState() noexcept {
     putForces(writer, running_.forcedBits());
     return putWhole(writer);
   };
-  if (!stream_.putState(running_.program().code_hash, running_.nowUs(), room, put)) return;
-  inputs_->know(running_.block().data());
-  nowUs_ = running_.nowUs();
-  faulted_ = running_.faulted();
-  servedKnown_ = false;
+  return stream_.putState(running_.program().code_hash, running_.nowUs(), room, put);
 }
 
 // ---- before a part -----------------------------------------------------------------------------------------------

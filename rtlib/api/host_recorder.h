@@ -70,6 +70,7 @@ public:
 
 private:
   void putState() noexcept;
+  bool putStateInto(size_t reserved) noexcept; // bytes for the state
   bool putWhole(runtime::EventWriter& writer) noexcept;
   void putInputs() noexcept;
   void putBytes(uint32_t offset, uint32_t count) noexcept;

@@ -46,7 +46,7 @@ private:
   std::map<uint32_t, uint32_t> beginsIn_;            // by rung of the routine: the first statement there
   std::map<uint32_t, uint32_t> continuesIn_;         // the same for statements of several rungs
   std::map<uint32_t, std::vector<uint32_t>> states_; // by statement; kNone: the end
-  uint32_t endRung_ = 0;                             // number of the rung at the end of a module
+  std::map<uint32_t, uint32_t> entered_;             // by the same: number of the rung where the unit continues
   std::map<uint32_t, uint32_t> partOf_;              // by the statement that begins it
 };
 
@@ -86,8 +86,8 @@ void Steps::findStates() {
            !rungs[rung].transfer.cond.valid())
       rung = rungs[rung].transfer.target;
     const uint32_t statement = statementAt(rung);
-    if (statement == kNone) endRung_ = rungs[rung].number;
     states_[statement].push_back(state);
+    entered_.emplace(statement, rungs[rung].number);
   }
 }
 
@@ -95,7 +95,11 @@ void Steps::beginPart(uint32_t index) {
   partOf_[index] = static_cast<uint32_t>(made_.parts.size());
   chart::Part& part = made_.parts.emplace_back();
   if (const auto states = states_.find(index); states != states_.end()) part.states = states->second;
-  part.first = index == kNone ? endRung_ : built_.rungs[index];
+  const auto entered = entered_.find(index);
+  if (entered != entered_.end() && entered->second != 0)
+    part.first = entered->second;
+  else if (index != kNone)
+    part.first = built_.rungs[index];
   if (index == kNone) {
     part.end = true;
     for (const Label& label : source_.labels)

@@ -195,16 +195,16 @@ class Profile(unittest.TestCase):
         self.assertEqual(rungc("profile", scenario, "--baseline", self.folder / "none.json").returncode, 3)
 
     def test_heat_is_drawn(self):
-        """On the ladder of a program that has one, with the figures of the profile at its rungs."""
+        """On the drawing, with the figures of the profile at its rungs."""
         page = self.folder / "heat.html"
-        for example, drawn in ((MILL / "tool-change.scn", True), (Path("examples/technol-mill/tool-change.scn"), False)):
+        for example in (MILL / "tool-change.scn", Path("examples/technol-mill/tool-change.scn")):
             profile = self.profile(example, "--repeat", 1, "--html", page)
             html = page.read_text()
             first = profile["rungs"][0]
             self.assertIn(f"{100 * first['share']:.1f} %, {first['operations']} operations", html)
             self.assertIn("share of all operations", html)
             self.assertIn("never ran", html)
-            self.assertEqual("<svg" in html, drawn)
+            self.assertIn("<svg", html)
             bars = set(re.findall(r'<s class="s(\d)"', html))
             self.assertTrue(len(bars) > 1 and bars <= set("12345"), bars)  # in the colours of the legend
         done = rungc("profile", MILL / "parts.scn", "--html", self.folder / "none/heat.html")

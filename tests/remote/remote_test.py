@@ -694,9 +694,8 @@ class FullDisk(Host):
     build_options = ("--profile",)
     commands = {"hosts": [], "status": [], "messages": [], "get": ["X0.0"], "watch": ["X0.0"], "trace": ["X0.0", "-o", "{home}/full.vcd", "--for", "0.1"],
                 "set": ["D8:2", "1"], "event": ["reset"], "force": ["D8:2", "1"], "unforce": ["--all"], "forced": [], "reload": ["{program}"],
-                "rollback": [], "stop": [], "start": [], "reset": [], "map": [], "profile": [], "serve": [], "log": [], "top": ["--once"], "verify": ["{program}"], "completion": ["bash"], "help": []}
                 "rollback": [], "mark": ["here"], "recording": ["--keep"], "stop": [], "start": [], "reset": [], "map": [], "profile": [], "serve": [],
-                 "log": [], "top": ["--once"], "verify": ["{program}"], "completion": ["bash"], "help": []}
+                "log": [], "top": ["--once"], "verify": ["{program}"], "completion": ["bash"], "help": []}
 
     def start(self):
         self.host = subprocess.Popen([BIN / "rung-run", self.program, self.home / "plc.map", "--name", "plc", "--simulate"],

@@ -86,7 +86,12 @@ void FakeHal::startThread(const std::string& name, int64_t periodNs) {
 
 std::vector<std::string> FakeHal::lines() const {
   std::vector<std::string> list;
-  for (size_t i = 0; i < std::min(lineCount_.load(), kLines); ++i) list.emplace_back(lines_[i].data());
+  for (size_t i = 0; i < std::min(lineCount_.load(), kLines); ++i) {
+    const std::string_view line = lines_[i].data();
+    const bool isFrame =
+        line.find(" started with the program ") != line.npos || line.ends_with(" the host has ended\n");
+    if (!isFrame) list.emplace_back(line);
+  }
   return list;
 }
 

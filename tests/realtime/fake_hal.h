@@ -49,7 +49,7 @@ public:
   void startThread(const std::string& function, int64_t periodNs);
   uint64_t calls() const { return threadCalls_; }
 
-  // What the component has printed.
+  // What the component has printed, without the lines for the start and the end of the host.
   std::vector<std::string> lines() const;
   // How many of these as errors, which LinuxCNC shows to its operator.
   size_t errors() const { return errorCount_.load(); }

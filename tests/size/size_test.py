@@ -12,7 +12,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 MAP = None
 # docs/architecture.md states it.
-MOST = 248_000
+MOST = 250_000
 ARCHIVES = ("rung_core", "rung_rtlib", "rung_nc_names", "rung_nc_control")
 TEXT = (".text", ".rodata", ".eh_frame", ".gcc_except_table")
 

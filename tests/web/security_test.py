@@ -125,7 +125,7 @@ class Security(unittest.TestCase):
         self.assertEqual(status, 403)
 
     def test_files(self):
-        for path in ("/../etc/passwd", "/%2e%2e/%2e%2e/etc/passwd", "//etc/passwd", "/app/main.js", "/main.js%00.html", "/api/"):
+        for path in ("/../etc/passwd", "/%2e%2e/%2e%2e/etc/passwd", "//etc/passwd", "/app/main.js", "/x%00/etc/passwd", "/api/"):
             status, answer = self.request(path=path, Cookie=self.live.cookie)
             self.assertIn(status, (0, 400, 404), path)
             self.assertNotIn(b"root:", answer)

@@ -100,9 +100,6 @@ Answer respond(Server::State& state, mg_connection* connection) {
   if (!state.access->knows(caller)) return {{403, "text/html", std::string(kSpent)}, {}};
   if (!caller.fetchSite.empty() && caller.fetchSite != "same-origin" && request.path != "/")
     return {{403, kText, "a page from elsewhere asks\n"}, {}};
-  // No path of ours has an escaped character, of which a zero would end the text.
-  if (std::string_view(info.local_uri_raw).find('%') != std::string_view::npos)
-    return {{404, kText, "there is no such page\n"}, {}};
   if (header(connection, "Upgrade") != "") return {{400, kText, "no other protocol is spoken here\n"}, {}};
   if (request.post) {
     std::optional<std::string> body = bodyOf(connection);

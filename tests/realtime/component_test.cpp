@@ -456,7 +456,9 @@ TEST_F(Component, MistakesAreReportedAndNothingIsLeft) {
     EXPECT_LT(hal.load(program, map, retain), 0);
     expectNothingLeft();
     const std::vector<std::string> lines = hal.lines();
-    return lines.size() == before + 1 ? lines.back() : "not one line";
+    std::string all;
+    for (size_t i = before; i < lines.size(); ++i) all += lines[i];
+    return lines.size() == before + 1 ? lines.back() : "not one line: " + all;
   };
   EXPECT_THAT(mistake("", "tests/cnc/stuck.map"),
               HasSubstr("so=PROGRAM.so, or source=PROGRAM, and map=MAPPING_FILE are needed"));

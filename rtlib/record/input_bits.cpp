@@ -16,6 +16,7 @@ InputBits::InputBits(std::span<const uint8_t> masks) : masks_(masks.begin(), mas
     pieces_.push_back(piece);
     at = piece.offset + kPiece;
   }
+  used_ = pieces_.size();
   while (pieces_.size() % kStep != 0) pieces_.push_back({.known = {}, .mask = {}, .offset = pieces_.back().offset});
   makeList();
 }
@@ -48,7 +49,7 @@ void InputBits::makeList() {
 }
 
 void InputBits::listKnown(EventWriter& writer) const noexcept {
-  for (const Piece& piece : pieces_) {
+  for (const Piece& piece : std::span(pieces_).first(used_)) {
     const auto bytes = std::bit_cast<std::array<uint8_t, kPiece>>(piece.known);
     writer.put(Event::Input, piece.offset, kPiece);
     writer.putBytes(bytes);
@@ -69,7 +70,7 @@ std::optional<InputBits> InputBits::fromList(size_t blockBytes, EventReader& rea
 }
 
 void InputBits::set(uint64_t offset, std::span<const uint8_t> bytes) noexcept {
-  for (Piece& piece : pieces_) {
+  for (Piece& piece : std::span(pieces_).first(used_)) {
     auto known = std::bit_cast<std::array<uint8_t, kPiece>>(piece.known);
     const uint64_t first = std::max<uint64_t>(offset, piece.offset);
     const uint64_t end = std::min<uint64_t>(offset + bytes.size(), uint64_t{piece.offset} + kPiece);

@@ -87,7 +87,8 @@ private:
   void makeList();
 
   std::vector<uint8_t> masks_; // of the block
-  std::vector<Piece> pieces_;  // by offset; the last ones may have no bits
+  std::vector<Piece> pieces_;  // by offset; the last ones of a step may have no bits
+  size_t used_ = 0;            // pieces with bits
   std::vector<uint8_t> list_;  // as `list` writes it
 };
 

@@ -381,7 +381,10 @@ class ForceAttacks(Forcing):
             self.assertIn(error, self.refused(self.packed(file=self.with_ir(text, size))), text[:20])
 
     def test_ir_that_is_changed(self):
-        """Words of the text in other places, from a seed: nothing of it becomes code."""
+        """Words of the text in other places, from a seed: nothing of it becomes code. Marks, which are comments, may change."""
+        def code(text):
+            return b"\n".join(line for line in text.splitlines() if not line.startswith(b"; mark ")).split()
+
         chance = random.Random(815)
         words = self.ir.split(b" ")
         for _ in range(60):
@@ -389,7 +392,7 @@ class ForceAttacks(Forcing):
             for _ in range(chance.randrange(1, 4)):
                 at = chance.randrange(len(text))
                 text[at] = chance.choice((chance.choice(words), b"4294967295", b"-1", b"", b"9" * 30, text[at] + b"\n" + text[at]))
-            if b" ".join(text).split() != self.ir.split():
+            if code(b" ".join(text)) != code(self.ir):
                 self.refused(self.packed(file=self.with_ir(b" ".join(text))))
 
     def test_a_gigabyte_of_ir(self):

@@ -300,7 +300,6 @@ TEST(HostRecording, IsPlayedWithItsControlFromAnyPlace) {
   const Result<std::string> why = console.why(words, false);
   ASSERT_TRUE(why.ok()) << why.error();
   EXPECT_THAT(why.value(), HasSubstr("GO (X0.0) = 1, since scan 101"));
-  EXPECT_EQ(differencesOf(past), "");
 }
 
 } // namespace

@@ -38,7 +38,7 @@ constexpr std::string_view kSecurity =
 // The answer to a browser that has spent its token. It loads the page by itself: a redirection would not have the
 // cookie where the link was on a page from elsewhere.
 constexpr std::string_view kWelcome =
-    "<!DOCTYPE html><html lang=\"en\"><meta charset=\"utf-8\"><title>Rung</title>"
+    "<!DOCTYPE html><html lang=\"en\"><meta charset=\"utf-8\"><link rel=\"icon\" href=\"data:,\"><title>Rung</title>"
     "<meta http-equiv=\"refresh\" content=\"0; url=/\"><a href=\"/\">Open</a></html>\n";
 constexpr std::string_view kSpent =
     "<!DOCTYPE html><html lang=\"en\"><meta charset=\"utf-8\"><title>Rung</title><h1>This link has been used</h1>"

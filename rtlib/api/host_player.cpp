@@ -54,9 +54,7 @@ runtime::LoadResult HostPlayer::load(core::Loader& loader) {
   return runtime::LoadResult::Loaded;
 }
 
-size_t HostPlayer::roomForOthers() const {
-  return inputs_->listed() + inputs_->listedKnown() + roomFor(configured_);
-}
+size_t HostPlayer::roomForOthers() const { return inputs_->listed() + inputs_->listedKnown() + roomFor(configured_); }
 
 // As HostRecorder writes it. Inputs follow the state, because they may be others than those that the block has now.
 void HostPlayer::putBeforeState(EventWriter& writer) const {
@@ -73,7 +71,6 @@ bool HostPlayer::takeOther(Event event) {
   case Event::Surroundings: return takeSurroundings();
   case Event::Configured: return takeConfigured();
   case Event::Inputs: return takeInputs();
-  case Event::Input: return takeInput();
   case Event::Stopped:
     return (reader_.takeNumber() != 0 ? rung_instance_stop(instance_) : rung_instance_start(instance_)) == RUNG_OK;
   case Event::Function: return takeFunction();
@@ -125,12 +122,9 @@ bool HostPlayer::takeInputs() {
   return nextInputs_.has_value();
 }
 
-bool HostPlayer::takeInput() {
-  uint64_t offset = 0;
-  std::span<const uint8_t> bytes;
-  if (!takeBytes(offset, bytes) || !inputs_) return false;
-  inputs_->set(offset, bytes);
-  return true;
+bool HostPlayer::takeInput(uint32_t offset, std::span<const uint8_t> bytes) {
+  if (inputs_) inputs_->set(offset, bytes);
+  return inputs_.has_value();
 }
 
 bool HostPlayer::takeFunction() {

@@ -58,7 +58,7 @@ private:
   bool takeConfigured();
   bool configure(const Configured& what);
   bool takeInputs();
-  bool takeInput();
+  bool takeInput(uint32_t offset, std::span<const uint8_t> bytes) override;
   bool takeFunction();
 
   rung_instance* instance_ = nullptr;

@@ -83,7 +83,7 @@ bool HostRecorder::putWhole(EventWriter& writer) noexcept {
 }
 
 void HostRecorder::putState() noexcept {
-  if (inputs_ == nullptr) return;             // the replacement was prepared before the recording
+  if (inputs_ == nullptr) return; // the replacement was prepared before the recording
   const size_t reserved = stateBytes_;
   bool isPut = putStateInto(reserved);
   if (!isPut && stateBytes_ > reserved) isPut = putStateInto(stateBytes_); // it has grown
@@ -118,7 +118,7 @@ void HostRecorder::partBegins(runtime::PartKind kind, uint32_t number, bool with
   inPart_ = true;
   if (stream_.whole()) {
     if (running_.nowUs() != nowUs_) events().put(Event::Clock, zigzag(running_.nowUs() - nowUs_));
-    if (withInputs && !inputs_->areAsKnown(running_.block().data())) putInputs();
+    if (withInputs) putInputs();
     if (running_.neededCopiesOnly() != neededOnly_) stream_.beginAnew();
   }
   if (stream_.isStateDue(running_.nowUs()) && running_.atListStart()) putState();
@@ -128,7 +128,7 @@ void HostRecorder::partBegins(runtime::PartKind kind, uint32_t number, bool with
 
 void HostRecorder::putInputs() noexcept {
   const uint8_t* block = running_.block().data();
-  runtime::ByteRuns runs(events(), Event::Input, block);
+  runtime::ByteRuns runs(events(), stream_.places(), Event::Input, block);
   inputs_->compare(block, [&](uint32_t offset) noexcept { runs.add(offset); });
 }
 
@@ -139,8 +139,7 @@ void HostRecorder::replied(const core::ServiceReply& reply) noexcept {
 }
 
 void HostRecorder::putBytes(uint32_t offset, uint32_t count) noexcept {
-  events().put(Event::Bytes, offset, count);
-  events().putBytes(running_.block().subspan(offset, count));
+  runtime::putRun(events(), stream_.places(), {Event::Bytes, offset, count}, running_.block().data() + offset);
 }
 
 // A byte as the dialect counts them, whose bits may have a byte each.

@@ -106,8 +106,9 @@ void BytesPlayer::within() {
 bool BytesPlayer::takeWithin(bool& ranTask) {
   if (failed_ || reader_.atEnd()) return false;
   const EventReader before = reader_;
-  switch (reader_.takeEvent()) {
-  case Event::Bytes: failed_ = !takeBytes(); return true;
+  const Event event = reader_.takeEvent();
+  if (isRun(event)) return failed_ = !takeWritten(event), true;
+  switch (event) {
   case Event::Request: failed_ = !takeRequest(); return true;
   case Event::Task: (void)instance_.runTask(reader_.takeNumber32()); return ranTask = true;
   case Event::Reply:

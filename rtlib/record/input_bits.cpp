@@ -11,13 +11,15 @@ InputBits::InputBits(std::span<const uint8_t> masks) : masks_(masks.begin(), mas
       ++at;
       continue;
     }
-    Piece piece{.known = {}, .mask = {}, .offset = static_cast<uint32_t>(std::min(at, masks_.size() - kPiece))};
-    std::memcpy(&piece.mask, masks_.data() + piece.offset, kPiece);
-    pieces_.push_back(piece);
-    at = piece.offset + kPiece;
+    const size_t first = std::min(at, masks_.size() - kPiece); // pieces may overlap at the end of a block
+    std::array<uint8_t, kPiece> mask{};
+    for (size_t i = at; i < first + kPiece; ++i) mask[i - first] = masks_[i];
+    pieces_.push_back({.mask = std::bit_cast<Words>(mask), .offset = static_cast<uint32_t>(first)});
+    at = first + kPiece;
   }
   used_ = pieces_.size();
-  while (pieces_.size() % kStep != 0) pieces_.push_back({.known = {}, .mask = {}, .offset = pieces_.back().offset});
+  while (pieces_.size() % kStep != 0) pieces_.push_back({.mask = {}, .offset = pieces_.back().offset});
+  known_.assign(pieces_.size(), Words{});
   makeList();
 }
 
@@ -49,10 +51,12 @@ void InputBits::makeList() {
 }
 
 void InputBits::listKnown(EventWriter& writer) const noexcept {
-  for (const Piece& piece : std::span(pieces_).first(used_)) {
-    const auto bytes = std::bit_cast<std::array<uint8_t, kPiece>>(piece.known);
-    writer.put(Event::Input, piece.offset, kPiece);
-    writer.putBytes(bytes);
+  for (size_t i = 0; i < used_; ++i) {
+    const auto bytes = std::bit_cast<std::array<uint8_t, kPiece>>(known_[i]);
+    const auto mask = std::bit_cast<std::array<uint8_t, kPiece>>(pieces_[i].mask);
+    const auto first = static_cast<size_t>(std::ranges::find_if(mask, [](uint8_t m) { return m != 0; }) - mask.begin());
+    writer.put(Event::Input, pieces_[i].offset + first, kPiece - first);
+    writer.putBytes(std::span(bytes).subspan(first));
   }
 }
 
@@ -70,12 +74,13 @@ std::optional<InputBits> InputBits::fromList(size_t blockBytes, EventReader& rea
 }
 
 void InputBits::set(uint64_t offset, std::span<const uint8_t> bytes) noexcept {
-  for (Piece& piece : std::span(pieces_).first(used_)) {
-    auto known = std::bit_cast<std::array<uint8_t, kPiece>>(piece.known);
-    const uint64_t first = std::max<uint64_t>(offset, piece.offset);
-    const uint64_t end = std::min<uint64_t>(offset + bytes.size(), uint64_t{piece.offset} + kPiece);
-    for (uint64_t at = first; at < end; ++at) known[at - piece.offset] = bytes[at - offset] & masks_[at];
-    piece.known = std::bit_cast<Words>(known);
+  for (size_t i = 0; i < used_; ++i) {
+    auto known = std::bit_cast<std::array<uint8_t, kPiece>>(known_[i]);
+    const auto mask = std::bit_cast<std::array<uint8_t, kPiece>>(pieces_[i].mask);
+    const uint64_t from = pieces_[i].offset;
+    const uint64_t end = std::min<uint64_t>(offset + bytes.size(), from + kPiece);
+    for (uint64_t at = std::max(offset, from); at < end; ++at) known[at - from] = bytes[at - offset] & mask[at - from];
+    known_[i] = std::bit_cast<Words>(known);
   }
 }
 

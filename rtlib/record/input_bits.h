@@ -30,27 +30,18 @@ public:
 
   // From now on the present contents are known.
   void know(const uint8_t* block) noexcept {
-    for (Piece& piece : pieces_) piece.known = wordsAt(block, piece) & piece.mask;
-  }
-  bool areAsKnown(const uint8_t* block) const noexcept {
-    Words different{};
-    for (size_t i = 0; i < pieces_.size(); i += kStep) // there are so many that no rest remains
-      for (size_t k = i; k < i + kStep; ++k)
-        different |= (wordsAt(block, pieces_[k]) ^ pieces_[k].known) & pieces_[k].mask;
-    return (different[0] | different[1]) == 0;
+    for (size_t i = 0; i < pieces_.size(); ++i) known_[i] = wordsAt(block, pieces_[i].offset) & pieces_[i].mask;
   }
   // Calls changed(offset) for each byte that is not as known, with ascending offsets, and makes all known.
   template <class Changed>
   void compare(const uint8_t* block, Changed changed) noexcept {
-    uint32_t next = 0; // pieces may overlap at the end of a block
-    for (Piece& piece : pieces_) {
-      const Words now = wordsAt(block, piece) & piece.mask;
-      const Words different = now ^ piece.known;
-      if ((different[0] | different[1]) == 0) continue;
-      const auto bytes = std::bit_cast<std::array<uint8_t, kPiece>>(different);
-      piece.known = now;
-      for (uint32_t b = 0; b < kPiece; ++b)
-        if (bytes[b] != 0 && piece.offset + b >= next) changed(piece.offset + b), next = piece.offset + b + 1;
+    for (size_t i = 0; i < pieces_.size(); i += kStep) { // there are so many that no rest remains
+      Words different{};
+      for (size_t k = i; k < i + kStep; ++k)
+        different |= (wordsAt(block, pieces_[k].offset) & pieces_[k].mask) ^ known_[k];
+      if ((different[0] | different[1]) == 0) [[likely]]
+        continue;
+      for (size_t k = i; k < i + kStep; ++k) compareOne(block, k, changed);
     }
   }
 
@@ -58,9 +49,9 @@ public:
 
   // Writes what is known, as the host did.
   void write(uint8_t* block) const noexcept {
-    for (const Piece& piece : pieces_) {
-      const Words words = (wordsAt(block, piece) & ~piece.mask) | piece.known;
-      std::memcpy(block + piece.offset, &words, sizeof words);
+    for (size_t i = 0; i < pieces_.size(); ++i) {
+      const Words words = (wordsAt(block, pieces_[i].offset) & ~pieces_[i].mask) | known_[i];
+      std::memcpy(block + pieces_[i].offset, &words, sizeof words);
     }
   }
   // Writes what is known as events (Event::Input); `listedKnown`: the room for that.
@@ -71,25 +62,43 @@ public:
 
 private:
   static constexpr uint32_t kPiece = 16; // bytes that are compared at once
-  static constexpr size_t kStep = 4;     // pieces of which the comparison makes one step
+  static constexpr size_t kStep = 8;     // pieces of which the comparison makes one step
   static constexpr size_t kEvent = 12;   // bytes of an event beside those that it writes, at most
   using Words = uint64_t __attribute__((vector_size(kPiece)));
   struct Piece {
-    Words known, mask;
+    Words mask;
     uint32_t offset = 0;
   };
 
-  static Words wordsAt(const uint8_t* block, const Piece& piece) noexcept {
+  static Words wordsAt(const uint8_t* block, uint32_t offset) noexcept {
     Words words;
-    std::memcpy(&words, block + piece.offset, sizeof words);
+    std::memcpy(&words, block + offset, sizeof words);
     return words;
+  }
+  template <class Changed>
+  void compareOne(const uint8_t* block, size_t i, Changed& changed) noexcept {
+    const Words now = wordsAt(block, pieces_[i].offset) & pieces_[i].mask;
+    const Words different = now ^ known_[i];
+    known_[i] = now;
+    for (uint32_t half = 0; half < 2; ++half) {
+      constexpr uint32_t kBits = 8; // of a byte; the first byte is the lowest: `littleEndian`
+      for (uint64_t left = littleEndian(different[half]); left != 0;) {
+        const auto byte = static_cast<uint32_t>(std::countr_zero(left)) / kBits;
+        changed(pieces_[i].offset + kBits * half + byte);
+        left &= ~(uint64_t{0xFF} << byte * kBits);
+      }
+    }
+  }
+  static uint64_t littleEndian(uint64_t word) noexcept {
+    return std::endian::native == std::endian::little ? word : __builtin_bswap64(word);
   }
   template <class Put>
   void eachRun(Put put) const;
   void makeList();
 
   std::vector<uint8_t> masks_; // of the block
-  std::vector<Piece> pieces_;  // by offset; the last ones of a step may have no bits
+  std::vector<Piece> pieces_;  // by offset, each byte in one of them; the last ones of a step may have no bits
+  std::vector<Words> known_;   // of each piece
   size_t used_ = 0;            // pieces with bits
   std::vector<uint8_t> list_;  // as `list` writes it
 };

@@ -46,7 +46,8 @@ Played Player::play() {
     case Event::Lost: whole_ = false; return Played::Lost;
     case Event::Anew: whole_ = false; break;
     case Event::State: return playState();
-    case Event::Part: return playPart();
+    case Event::Part:
+    case Event::Next: return playPart(event);
     case Event::Program:
       if (reader_.takeNumber() == instance().program().code_hash) break;
       if (!reader_.good()) return damaged();
@@ -80,6 +81,8 @@ Played Player::playState() {
   default: return damaged();
   }
   whole_ = true;
+  knowsPart_ = false;
+  places_.clear();
   return Played::State;
 }
 
@@ -103,7 +106,7 @@ std::vector<uint8_t> Player::state() const {
   if (!whole_ || !save(counted)) return {};
   const std::span<const core::ForcedBits> forced = instance().forcedBits();
   constexpr size_t kOther = 64; // of the events around the forces and the bytes
-  std::vector<uint8_t> events(roomForOthers() + roomForForces(forced) + counted.size() + kOther);
+  std::vector<uint8_t> events(roomForOthers() + roomForForces(forced) + counted.size() + Places::kRoom + kOther);
   EventWriter writer(events);
   putBeforeState(writer);
   putForces(writer, forced);
@@ -112,6 +115,10 @@ std::vector<uint8_t> Player::state() const {
   (void)save(saver);
   writer.advance(counted.size());
   putAfterState(writer);
+  if (knowsPart_) {
+    writer.put(Event::Places, static_cast<uint8_t>(kind_), number_);
+    places_.list(writer);
+  }
   events.resize(writer.size());
   return events;
 }
@@ -119,10 +126,11 @@ std::vector<uint8_t> Player::state() const {
 // ---- before a part -----------------------------------------------------------------------------------------------
 
 bool Player::takeBefore(Event event) {
+  if (isRun(event)) return takeWritten(event);
   switch (event) {
   case Event::Clock: instance().advanceClock(unzigzag(reader_.takeNumber())); return reader_.good();
-  case Event::Bytes: return takeBytes();
   case Event::Mark: return takeMark();
+  case Event::Places: return takePlaces();
   default: return takeOther(event);
   }
 }
@@ -143,18 +151,19 @@ bool Player::takeForces() {
   return reader_.good() && owner_.force(instance(), bits);
 }
 
-bool Player::takeBytes(uint64_t& offset, std::span<const uint8_t>& bytes) {
-  offset = reader_.takeNumber();
-  bytes = reader_.takeBytes(reader_.takeNumber());
-  return reader_.good() && mayWrite(bits_, offset, bytes);
+bool Player::takeWritten(Event first) {
+  Places::Run run;
+  std::span<const uint8_t> bytes;
+  if (!takeRun(reader_, places_, first, run, bytes) || !mayWrite(bits_, run.offset, bytes)) return false;
+  if (run.event == Event::Input) return takeInput(run.offset, bytes);
+  std::ranges::copy(bytes, instance().block().begin() + static_cast<ptrdiff_t>(run.offset));
+  return true;
 }
 
-bool Player::takeBytes() {
-  uint64_t offset = 0;
-  std::span<const uint8_t> bytes;
-  if (!takeBytes(offset, bytes)) return false;
-  std::ranges::copy(bytes, instance().block().begin() + static_cast<ptrdiff_t>(offset));
-  return true;
+// The part and the places before those that follow.
+bool Player::takePlaces() {
+  knowsPart_ = takePart() && places_.takeList(reader_);
+  return knowsPart_;
 }
 
 bool Player::takeList(int64_t* values, uint32_t count) {
@@ -182,12 +191,17 @@ bool Player::takeReplies() {
 
 // ---- parts -------------------------------------------------------------------------------------------------------
 
-Played Player::playPart() {
+bool Player::takePart() {
   const uint64_t kind = reader_.takeNumber();
   number_ = reader_.takeNumber32();
-  if (!reader_.good() || kind > static_cast<uint64_t>(PartKind::PowerOff) || !whole_) return damaged();
+  if (!reader_.good() || kind > static_cast<uint64_t>(PartKind::PowerOff)) return false;
   kind_ = static_cast<PartKind>(kind);
-  return mayRun(kind_) && takeReplies() ? runAndCompare() : damaged();
+  return mayRun(kind_);
+}
+
+Played Player::playPart(Event event) {
+  if (event == Event::Part) knowsPart_ = takePart();
+  return whole_ && knowsPart_ && takeReplies() ? runAndCompare() : damaged();
 }
 
 Played Player::runAndCompare() {

@@ -88,6 +88,7 @@ protected:
   virtual void beforeComparison() {}
   virtual bool matters(size_t offset) const { return (void)offset, true; }
   virtual bool takeOther(Event event) = 0; // an event before a part
+  virtual bool takeInput(uint32_t offset, std::span<const uint8_t> bytes) { return (void)offset, (void)bytes, false; }
   virtual bool mayRun(PartKind kind) const = 0;
   virtual void run() = 0;            // the last part, again or for the first time
   virtual void compareOutcome() = 0; // of it, but for its fault
@@ -96,8 +97,8 @@ protected:
   bool takeReplies(); // those that follow
   std::optional<core::ServiceReply> takeReply();
   bool takeList(int64_t* values, uint32_t count);
-  bool takeBytes(uint64_t& offset, std::span<const uint8_t>& bytes); // for the block
-  bool takeBytes();
+  // Bytes or Input, whose first byte has been taken.
+  bool takeWritten(Event first);
   void differs(PlayedDifference::Kind kind) { difference_ = PlayedDifference{.kind = kind}; }
 
   EventReader reader_{{}};
@@ -109,17 +110,22 @@ protected:
 private:
   Played damaged();
   Played playState();
-  Played playPart();
+  bool takePart();
+  Played playPart(Event event);
   bool takeBefore(Event event);
   bool takeForces();
   bool takeMark();
+  bool takePlaces();
   void compareState(std::span<const uint8_t> recorded);
   Played runAndCompare();
   void compareFault(bool wasFaulted);
 
   PlayerOwner& owner_;
   BlockBytes bits_;
-  uint64_t repeats_ = 0; // that are left
+  // What short forms refer to.
+  Places places_;
+  bool knowsPart_ = false; // kind_ and number_ are those of a part since the last state
+  uint64_t repeats_ = 0;   // that are left
   std::optional<PlayedDifference> difference_;
 };
 

@@ -95,7 +95,7 @@ void Recorder::putBefore(const Instance& instance) noexcept {
 void Recorder::putChanges(const Instance& instance, WatchedBytes& watched) noexcept {
   const uint8_t* block = instance.block().data();
   if (watched.isAsKnown(block)) return;
-  ByteRuns runs(stream_.events(), Event::Bytes, block);
+  ByteRuns runs(stream_.events(), stream_.places(), Event::Bytes, block);
   watched.compare(block, [&](uint32_t offset) noexcept {
     putWithin();
     runs.add(offset);
@@ -108,8 +108,7 @@ void Recorder::surroundingsChanged(const Instance& instance) noexcept {
 
 void Recorder::written(const Instance& instance, uint32_t offset, uint32_t bytes) noexcept {
   if (!stream_.whole()) return;
-  stream_.events().put(Event::Bytes, offset, bytes);
-  stream_.events().putBytes(instance.block().subspan(offset, bytes));
+  putRun(stream_.events(), stream_.places(), {Event::Bytes, offset, bytes}, instance.block().data() + offset);
 }
 
 void Recorder::mark(std::string_view text) noexcept {

@@ -4,30 +4,29 @@
 #include <stdexcept>
 #include <utility>
 
-#include "compiler/engines.h"
-#include "tools/bench/machines/replay.h"
-
 namespace rung::bench {
 
 struct Recorder::Beside {
-  Beside(scenario::Session& of, const compiler::Compiled& program)
-      : session(of), engine(engineOf(program)), image(rung::Image::adopt(engine->program(), engine->context())),
-        replay(image), inSlots(of.nc().control().runsInSlots()) {}
+  Beside(scenario::Session& of, const compiler::Compiled& program, compiler::EngineKind kind, EachPart receiver)
+      : session(of), each(std::move(receiver)), engine(engineOf(program, kind)),
+        image(rung::Image::adopt(engine->program(), engine->context())), replay(image),
+        inSlots(of.nc().control().runsInSlots()) {}
 
-  static std::unique_ptr<runtime::Engine> engineOf(const compiler::Compiled& program) {
-    auto engine = compiler::makeEngine(compiler::EngineKind::Interp, program, {});
+  static std::unique_ptr<runtime::Engine> engineOf(const compiler::Compiled& program, compiler::EngineKind kind) {
+    auto engine = compiler::makeEngine(kind, program, {});
     if (!engine.ok()) throw std::runtime_error(engine.error());
     return std::move(engine).value();
   }
 
   scenario::Session& session;
+  EachPart each;
   std::unique_ptr<runtime::Engine> engine;
   rung::Image image;
   Replay replay;
   bool inSlots;
   bool within = false; // within a scan
+  bool runs = false;   // parts have run
   bool ended = false;  // the scenario has switched the program on again
-  Recording recording;
   std::string problem;
 };
 
@@ -54,18 +53,19 @@ std::vector<Writes> differences(const runtime::Instance& from, const runtime::In
 
 } // namespace
 
-Recorder::Recorder(scenario::Session& session, const compiler::Compiled& program)
-    : beside_(std::make_unique<Beside>(session, program)) {
+Recorder::Recorder(scenario::Session& session, const compiler::Compiled& program, compiler::EngineKind engine,
+                   EachPart each)
+    : beside_(std::make_unique<Beside>(session, program, engine, std::move(each))) {
   session.addObserver(*this);
 }
 
 Recorder::~Recorder() = default;
 
-const Recording& Recorder::recording() const { return beside_->recording; }
+Replay& Recorder::replay() { return beside_->replay; }
 const std::string& Recorder::problem() const { return beside_->problem; }
 
 void Recorder::started(scenario::Session& session) {
-  beside_->ended = !beside_->recording.parts.empty();
+  beside_->ended = beside_->runs;
   session.instance().setTaskWatch(beside_->ended ? nullptr : this);
 }
 
@@ -79,13 +79,13 @@ void Recorder::scanned(const scenario::Session& session) {
 void Recorder::begins(const runtime::Instance& instance, uint32_t task) {
   const bool partBegins = beside_->inSlots ? task == instance.program().fast_task : !beside_->within;
   if (!partBegins || beside_->ended || !beside_->problem.empty()) return;
-  beside_->within = true;
+  beside_->within = beside_->runs = true;
   Part part{.writes = differences(beside_->replay.inside(), instance), .hash = 0};
   beside_->replay.write(part);
   beside_->replay.run();
   beside_->replay.drain();
   part.hash = beside_->replay.hash();
-  beside_->recording.parts.push_back(std::move(part));
+  beside_->each(std::move(part));
 }
 
 } // namespace rung::bench

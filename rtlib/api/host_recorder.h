@@ -83,7 +83,7 @@ private:
   rung_instance& instance_;
   runtime::Instance& running_;
   runtime::PartStream stream_;
-  std::unique_ptr<runtime::InputBits> inputs_; // never null while whole
+  std::unique_ptr<runtime::InputBits> inputs_; // null: the program is not recorded; never while whole
   bool inPart_ = false;
   bool served_ = false, servedKnown_ = false;
   bool faulted_ = false;

@@ -21,8 +21,10 @@ std::string recordingOf(const std::string& path) {
   options.engines = {compiler::EngineKind::Interp};
   options.started = [&](scenario::Session& session, const compiler::Compiled& program) {
     recorder =
-        std::make_unique<bench::Recorder>(session, program, compiler::EngineKind::Interp,
-                                          [&](bench::Part&& part) { recording.parts.push_back(std::move(part)); });
+        std::make_unique<bench::Recorder>(session, program, compiler::EngineKind::Interp, [&](bench::Part&& part) {
+          part.hash = recorder->replay().hash();
+          recording.parts.push_back(std::move(part));
+        });
     return std::string();
   };
   const scenario::RunResult result = scenario::run(scenario.value(), options);

@@ -15,7 +15,8 @@ namespace rung::bench {
 // recording ends where the scenario switches the program on again.
 class Recorder final : public scenario::Observer, public runtime::TaskWatch {
 public:
-  using EachPart = std::function<void(Part&& part)>; // after it has run
+  // After it has run; its hash is not computed.
+  using EachPart = std::function<void(Part&& part)>;
   // `engine`: of the copy. Throws std::runtime_error if the program cannot run alone.
   Recorder(scenario::Session& session, const compiler::Compiled& program, compiler::EngineKind engine, EachPart each);
   ~Recorder() override;

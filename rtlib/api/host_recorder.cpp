@@ -11,12 +11,16 @@ namespace rung::api {
 
 using runtime::Event;
 using runtime::EventWriter;
+using runtime::putForces;
+using runtime::putReply;
 using runtime::zigzag;
 
 namespace {
 
 // Room for the events of one part: each input with an event of its own, and what else there may be.
 constexpr size_t kPartRoom = 262'144;
+
+} // namespace
 
 void putConfiguration(EventWriter& writer, const Configured& of) noexcept {
   writer.put(Event::Configured, static_cast<uint8_t>(of.kind), of.a, of.b, of.c, of.text.size());
@@ -29,17 +33,6 @@ size_t roomFor(const std::vector<Configured>& all) noexcept {
   for (const Configured& one : all) room += kEach + one.text.size();
   return room;
 }
-
-void putForces(EventWriter& writer, std::span<const core::ForcedBits> forced) noexcept {
-  writer.put(Event::Forces, forced.size());
-  for (const core::ForcedBits& bits : forced) {
-    writer.putNumber(bits.offset);
-    writer.putNumber(bits.mask);
-    writer.putNumber(bits.value);
-  }
-}
-
-} // namespace
 
 // Ones written to a block of zeros are the bits of the cell.
 std::unique_ptr<runtime::InputBits> inputBits(const rung_instance& instance, const Generation& generation) {
@@ -90,7 +83,7 @@ bool HostRecorder::putWhole(EventWriter& writer) noexcept {
 }
 
 void HostRecorder::putState() noexcept {
-  if (inputs_ == nullptr) return;             // the replacement was prepared before the recording
+  if (inputs_ == nullptr) return; // the replacement was prepared before the recording
   const size_t reserved = stateBytes_;
   bool isPut = putStateInto(reserved);
   if (!isPut && stateBytes_ > reserved) isPut = putStateInto(stateBytes_); // it has grown
@@ -125,7 +118,7 @@ void HostRecorder::partBegins(runtime::PartKind kind, uint32_t number, bool with
   inPart_ = true;
   if (stream_.whole()) {
     if (running_.nowUs() != nowUs_) events().put(Event::Clock, zigzag(running_.nowUs() - nowUs_));
-    if (withInputs && !inputs_->areAsKnown(running_.block().data())) putInputs();
+    if (withInputs) putInputs();
     if (running_.neededCopiesOnly() != neededOnly_) stream_.beginAnew();
   }
   if (stream_.isStateDue(running_.nowUs()) && running_.atListStart()) putState();
@@ -133,36 +126,11 @@ void HostRecorder::partBegins(runtime::PartKind kind, uint32_t number, bool with
   stream_.begin(kind, number);
 }
 
-// Neighbouring bytes are one event.
 void HostRecorder::putInputs() noexcept {
   const uint8_t* block = running_.block().data();
-  uint32_t first = 0, count = 0;
-  const auto put = [&] {
-    if (count == 0) return;
-    events().put(Event::Input, first, count);
-    events().putBytes({block + first, count});
-  };
-  inputs_->compare(block, [&](uint32_t offset) noexcept {
-    if (count != 0 && offset == first + count) {
-      ++count;
-      return;
-    }
-    put();
-    first = offset;
-    count = 1;
-  });
-  put();
+  runtime::ByteRuns runs(events(), stream_.places(), Event::Input, block);
+  inputs_->compare(block, [&](uint32_t offset) noexcept { runs.add(offset); });
 }
-
-namespace {
-
-void putReply(EventWriter& writer, Event event, const core::ServiceReply& reply) noexcept {
-  const uint32_t count = std::min(reply.resultCount, RUNG_MAX_SERVICE_ARGS);
-  writer.put(event, reply.ticket, reply.state, count);
-  for (uint32_t i = 0; i < count; ++i) writer.putNumber(zigzag(reply.results[i]));
-}
-
-} // namespace
 
 void HostRecorder::replied(const core::ServiceReply& reply) noexcept {
   if (!stream_.whole()) return;
@@ -171,8 +139,7 @@ void HostRecorder::replied(const core::ServiceReply& reply) noexcept {
 }
 
 void HostRecorder::putBytes(uint32_t offset, uint32_t count) noexcept {
-  events().put(Event::Bytes, offset, count);
-  events().putBytes(running_.block().subspan(offset, count));
+  runtime::putRun(events(), stream_.places(), {Event::Bytes, offset, count}, running_.block().data() + offset);
 }
 
 // A byte as the dialect counts them, whose bits may have a byte each.

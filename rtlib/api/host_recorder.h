@@ -30,6 +30,9 @@ struct Configured {
   std::string text = {};
   bool operator==(const Configured&) const = default;
 };
+// Event::Configured, and the bytes that it takes at most.
+void putConfiguration(runtime::EventWriter& writer, const Configured& of) noexcept;
+size_t roomFor(const std::vector<Configured>& all) noexcept;
 
 // The bits that the bound variables of an instance write in one of its programs. Not in real time.
 std::unique_ptr<runtime::InputBits> inputBits(const rung_instance& instance, const Generation& generation);
@@ -80,7 +83,7 @@ private:
   rung_instance& instance_;
   runtime::Instance& running_;
   runtime::PartStream stream_;
-  std::unique_ptr<runtime::InputBits> inputs_; // never null while whole
+  std::unique_ptr<runtime::InputBits> inputs_; // null: the program is not recorded; never while whole
   bool inPart_ = false;
   bool served_ = false, servedKnown_ = false;
   bool faulted_ = false;

@@ -14,6 +14,9 @@ namespace rung::api {
 
 namespace {
 
+constexpr const char* kLeftOut = "the program that runs was prepared before the recording began, and is not recorded: "
+                                 "prepare it again";
+
 // All that the program reads or writes; what it writes is compared at each state.
 runtime::RecordedBytes recordedBytes(const rung_program& program) {
   const runtime::BlockBytes written = runtime::writtenBytes(program);
@@ -86,6 +89,7 @@ InstanceRecording::Next InstanceRecording::prepare(const Generation& generation)
 }
 
 void InstanceRecording::programChanged(Next& next) noexcept {
+  leavesOut_.store(instance_.recorder ? next.inputs == nullptr : next.bytes == nullptr, std::memory_order_relaxed);
   if (instance_.recorder)
     instance_.recorder->programChanged(next.inputs);
   else
@@ -172,7 +176,7 @@ int32_t rung_instance_recording(const rung_instance* instance, rung_recording_in
         .since_us = state.sinceUs, .bytes = state.bytes, .written = state.written, .losses = state.losses};
     putText(out.folder, state.folder);
     putText(out.file, state.file);
-    putText(out.problem, state.problem);
+    putText(out.problem, state.problem.empty() && recording->leavesOut() ? kLeftOut : state.problem.c_str());
     return giveStruct(info, out);
   });
 }

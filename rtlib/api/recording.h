@@ -1,5 +1,6 @@
 // The recording of an instance: who records, and who writes it.
 #pragma once
+#include <atomic>
 #include <cstdint>
 #include <memory>
 
@@ -29,12 +30,15 @@ public:
     std::unique_ptr<runtime::RecordedBytes> bytes;
   };
   Next prepare(const Generation& generation) const;
+  // The program of a replacement that was prepared before the recording began is not recorded: `leavesOut`.
   void programChanged(Next& next) noexcept;
+  bool leavesOut() const noexcept { return leavesOut_.load(std::memory_order_relaxed); } // any thread
 
 private:
   rung_instance& instance_;
   std::unique_ptr<runtime::Recorder> bytes_; // where not only the control is around the program
   std::unique_ptr<runtime::RecordingWriter> writer_;
+  std::atomic<bool> leavesOut_{false};
 };
 
 } // namespace rung::api

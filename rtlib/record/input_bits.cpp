@@ -11,14 +11,31 @@ InputBits::InputBits(std::span<const uint8_t> masks) : masks_(masks.begin(), mas
       ++at;
       continue;
     }
-    Piece piece{.known = {}, .mask = {}, .offset = static_cast<uint32_t>(std::min(at, masks_.size() - kPiece))};
-    std::memcpy(&piece.mask, masks_.data() + piece.offset, kPiece);
-    pieces_.push_back(piece);
-    at = piece.offset + kPiece;
+    const size_t first = std::min(at, masks_.size() - kPiece); // pieces may overlap at the end of a block
+    std::array<uint8_t, kPiece> mask{};
+    for (size_t i = at; i < first + kPiece; ++i) mask[i - first] = masks_[i];
+    add(static_cast<uint32_t>(first), std::bit_cast<Words>(mask));
+    at = first + kPiece;
   }
-  used_ = pieces_.size();
-  while (pieces_.size() % kStep != 0) pieces_.push_back({.known = {}, .mask = {}, .offset = pieces_.back().offset});
   makeList();
+}
+
+// All pieces of a step have a place that can be read.
+void InputBits::add(uint32_t offset, Words mask) {
+  if (pieces_ % kStep == 0) std::fill_n(steps_.emplace_back().offset, kStep, offset);
+  steps_.back().offset[pieces_ % kStep] = offset;
+  steps_.back().mask[pieces_ % kStep] = mask;
+  ++pieces_;
+}
+
+// each(offset, known, mask) for the pieces with bits.
+template <class Each>
+void InputBits::eachPiece(Each each) const {
+  for (size_t i = 0; i < pieces_; ++i) {
+    const Step& step = steps_[i / kStep];
+    each(step.offset[i % kStep], std::bit_cast<std::array<uint8_t, kPiece>>(step.known[i % kStep]),
+         std::bit_cast<std::array<uint8_t, kPiece>>(step.mask[i % kStep]));
+  }
 }
 
 // put(first, count) for each run of bytes with such bits.
@@ -49,11 +66,11 @@ void InputBits::makeList() {
 }
 
 void InputBits::listKnown(EventWriter& writer) const noexcept {
-  for (const Piece& piece : std::span(pieces_).first(used_)) {
-    const auto bytes = std::bit_cast<std::array<uint8_t, kPiece>>(piece.known);
-    writer.put(Event::Input, piece.offset, kPiece);
-    writer.putBytes(bytes);
-  }
+  eachPiece([&](uint32_t offset, const auto& known, const auto& mask) {
+    const auto first = static_cast<size_t>(std::ranges::find_if(mask, [](uint8_t m) { return m != 0; }) - mask.begin());
+    writer.put(Event::Input, offset + first, kPiece - first);
+    writer.putBytes(std::span(known).subspan(first));
+  });
 }
 
 std::optional<InputBits> InputBits::fromList(size_t blockBytes, EventReader& reader) {
@@ -70,12 +87,14 @@ std::optional<InputBits> InputBits::fromList(size_t blockBytes, EventReader& rea
 }
 
 void InputBits::set(uint64_t offset, std::span<const uint8_t> bytes) noexcept {
-  for (Piece& piece : std::span(pieces_).first(used_)) {
-    auto known = std::bit_cast<std::array<uint8_t, kPiece>>(piece.known);
-    const uint64_t first = std::max<uint64_t>(offset, piece.offset);
-    const uint64_t end = std::min<uint64_t>(offset + bytes.size(), uint64_t{piece.offset} + kPiece);
-    for (uint64_t at = first; at < end; ++at) known[at - piece.offset] = bytes[at - offset] & masks_[at];
-    piece.known = std::bit_cast<Words>(known);
+  for (size_t i = 0; i < pieces_; ++i) {
+    Step& step = steps_[i / kStep];
+    auto known = std::bit_cast<std::array<uint8_t, kPiece>>(step.known[i % kStep]);
+    const auto mask = std::bit_cast<std::array<uint8_t, kPiece>>(step.mask[i % kStep]);
+    const uint64_t from = step.offset[i % kStep];
+    const uint64_t end = std::min<uint64_t>(offset + bytes.size(), from + kPiece);
+    for (uint64_t at = std::max(offset, from); at < end; ++at) known[at - from] = bytes[at - offset] & mask[at - from];
+    step.known[i % kStep] = std::bit_cast<Words>(known);
   }
 }
 

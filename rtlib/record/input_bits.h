@@ -24,71 +24,97 @@ public:
   void list(EventWriter& writer) const noexcept { writer.putBytes(list_); }
   size_t listed() const noexcept { return list_.size(); }
   // The maximum number of bytes that `compare` can find changed.
-  size_t bytes() const noexcept { return kPiece * pieces_.size(); }
+  size_t bytes() const noexcept { return kPiece * kStep * steps_.size(); }
 
   // ---- scan thread; nothing here allocates ----
 
   // From now on the present contents are known.
   void know(const uint8_t* block) noexcept {
-    for (Piece& piece : pieces_) piece.known = wordsAt(block, piece) & piece.mask;
-  }
-  bool areAsKnown(const uint8_t* block) const noexcept {
-    Words different{};
-    for (size_t i = 0; i < pieces_.size(); i += kStep) // there are so many that no rest remains
-      for (size_t k = i; k < i + kStep; ++k)
-        different |= (wordsAt(block, pieces_[k]) ^ pieces_[k].known) & pieces_[k].mask;
-    return (different[0] | different[1]) == 0;
+    for (Step& step : steps_)
+      for (size_t k = 0; k < kStep; ++k) step.known[k] = wordsAt(block, step.offset[k]) & step.mask[k];
   }
   // Calls changed(offset) for each byte that is not as known, with ascending offsets, and makes all known.
   template <class Changed>
   void compare(const uint8_t* block, Changed changed) noexcept {
-    uint32_t next = 0; // pieces may overlap at the end of a block
-    for (Piece& piece : pieces_) {
-      const Words now = wordsAt(block, piece) & piece.mask;
-      const Words different = now ^ piece.known;
-      if ((different[0] | different[1]) == 0) continue;
-      const auto bytes = std::bit_cast<std::array<uint8_t, kPiece>>(different);
-      piece.known = now;
-      for (uint32_t b = 0; b < kPiece; ++b)
-        if (bytes[b] != 0 && piece.offset + b >= next) changed(piece.offset + b), next = piece.offset + b + 1;
-    }
+    Step* const end = steps_.data() + steps_.size();
+    for (Step* at = firstOther(steps_.data(), end, block); at != end; at = firstOther(at + 1, end, block))
+      compareStep(*at, block, changed);
   }
 
   // ---- a player ----
 
   // Writes what is known, as the host did.
   void write(uint8_t* block) const noexcept {
-    for (const Piece& piece : pieces_) {
-      const Words words = (wordsAt(block, piece) & ~piece.mask) | piece.known;
-      std::memcpy(block + piece.offset, &words, sizeof words);
-    }
+    for (const Step& step : steps_)
+      for (size_t k = 0; k < kStep; ++k) {
+        const Words words = (wordsAt(block, step.offset[k]) & ~step.mask[k]) | step.known[k];
+        std::memcpy(block + step.offset[k], &words, sizeof words);
+      }
   }
-  // Writes what is known as events (Event::Input).
+  // Writes what is known as events (Event::Input); `listedKnown`: the room for that.
   void listKnown(EventWriter& writer) const noexcept;
+  size_t listedKnown() const noexcept { return kStep * steps_.size() * (kPiece + kEvent); }
   // From now on these bytes are known, from `offset` on.
   void set(uint64_t offset, std::span<const uint8_t> bytes) noexcept;
 
 private:
   static constexpr uint32_t kPiece = 16; // bytes that are compared at once
-  static constexpr size_t kStep = 4;     // pieces of which the comparison makes one step
+  static constexpr size_t kStep = 8;     // pieces that are compared together
+  static constexpr size_t kEvent = 12;   // bytes of an event beside those that it writes, at most
   using Words = uint64_t __attribute__((vector_size(kPiece)));
-  struct Piece {
-    Words known, mask;
-    uint32_t offset = 0;
+  // Pieces in the order of their offsets; the last ones of the last step may have no bits.
+  struct Step {
+    Words known[kStep] = {}, mask[kStep] = {};
+    uint32_t offset[kStep] = {};
   };
 
-  static Words wordsAt(const uint8_t* block, const Piece& piece) noexcept {
+  static Words wordsAt(const uint8_t* block, uint32_t offset) noexcept {
     Words words;
-    std::memcpy(&words, block + piece.offset, sizeof words);
+    std::memcpy(&words, block + offset, sizeof words);
     return words;
+  }
+  // The first one in which a byte is not as known.
+  static Step* firstOther(Step* at, Step* end, const uint8_t* block) noexcept {
+    for (; at != end; ++at) {
+      Words different{};
+      for (size_t k = 0; k < kStep; ++k) different |= (wordsAt(block, at->offset[k]) & at->mask[k]) ^ at->known[k];
+      if ((different[0] | different[1]) != 0) break;
+    }
+    return at;
+  }
+  template <class Changed>
+  static void compareStep(Step& step, const uint8_t* block, Changed& changed) noexcept {
+    for (size_t k = 0; k < kStep; ++k) {
+      const Words now = wordsAt(block, step.offset[k]) & step.mask[k];
+      const Words different = now ^ step.known[k];
+      if ((different[0] | different[1]) == 0) continue;
+      step.known[k] = now;
+      eachByte(different[0], step.offset[k], changed);
+      eachByte(different[1], step.offset[k] + sizeof(uint64_t), changed);
+    }
+  }
+  template <class Changed>
+  static void eachByte(uint64_t different, uint32_t offset, Changed& changed) noexcept {
+    constexpr uint32_t kBits = 8; // of a byte; the first byte is the lowest: `littleEndian`
+    for (uint64_t left = littleEndian(different); left != 0;) {
+      const auto byte = static_cast<uint32_t>(std::countr_zero(left)) / kBits;
+      changed(offset + byte);
+      left &= ~(uint64_t{0xFF} << byte * kBits);
+    }
+  }
+  static uint64_t littleEndian(uint64_t word) noexcept {
+    return std::endian::native == std::endian::little ? word : __builtin_bswap64(word);
   }
   template <class Put>
   void eachRun(Put put) const;
+  template <class Each>
+  void eachPiece(Each each) const;
+  void add(uint32_t offset, Words mask);
   void makeList();
 
   std::vector<uint8_t> masks_; // of the block
-  std::vector<Piece> pieces_;  // by offset; the last ones of a step may have no bits
-  size_t used_ = 0;            // pieces with bits
+  std::vector<Step> steps_;    // each byte is in one piece
+  size_t pieces_ = 0;          // with bits
   std::vector<uint8_t> list_;  // as `list` writes it
 };
 

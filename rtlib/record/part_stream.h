@@ -29,6 +29,7 @@ public:
 
   // The events of the part, and those since the last one; only while `whole`.
   EventWriter& events() noexcept { return part_; }
+  Places& places() noexcept { return places_; }
   // Whether all since the last state is recorded.
   bool whole() const noexcept { return whole_; }
   bool isStateDue(int64_t nowUs) const noexcept { return nowUs >= stateUs_; }
@@ -53,7 +54,11 @@ public:
   // Only when there is something else to write: most parts are as the one before.
   void putPart() noexcept {
     if (plainSize_ != 0) return;
-    part_.put(Event::Part, static_cast<uint8_t>(now_.kind), now_.number == RUNG_NONE ? 0 : now_.number);
+    if (now_.kind == written_.kind && now_.number == written_.number && written_.plain)
+      part_.put(Event::Next);
+    else
+      part_.put(Event::Part, static_cast<uint8_t>(now_.kind), now_.number == RUNG_NONE ? 0 : now_.number);
+    written_ = {now_.kind, now_.number, true};
     plainSize_ = part_.size();
   }
   bool hasEventsWithin() const noexcept { return part_.size() != plainSize_; }
@@ -110,6 +115,8 @@ private:
   bool lost_ = false;         // something was lost since then
   int64_t stateUs_ = kAtOnce; // when the next state is due
   Part now_, last_;
+  Part written_; // by the last event of a part; not plain: there is none since the last state
+  Places places_;
   size_t plainSize_ = 0; // of the events up to that of the part itself; 0: it is not written
   uint64_t repeats_ = 0; // of the last one
   std::atomic<bool> wanted_{false};
@@ -133,7 +140,8 @@ bool PartStream::putState(uint64_t program, int64_t nowUs, size_t room, Put put)
   stateUs_ = nowUs + options_.stateEveryUs;
   whole_ = true;
   lost_ = false;
-  last_.plain = false; // a recording may be played from here
+  last_.plain = written_.plain = false; // a recording may be played from here
+  places_.clear();
   return true;
 }
 

@@ -7,9 +7,11 @@ import mmap
 import os
 import pty
 import random
+import re
 import shutil
 import signal
 import struct
+import subprocess
 import sys
 import tempfile
 import termios
@@ -20,7 +22,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "connections"))
 from sides import Host
-from patience import wait_until
+from patience import patience, wait_until
 from root import go_to_root
 
 BIN = None
@@ -222,6 +224,62 @@ class Areas(WithHost):
         self.set("GO1", 1)
         self.sees(3, "CODE")
         self.says("the file of the shared areas was written over or shortened")
+
+
+class Recorded(WithHost):
+    """What devices and a simulated control write is in the recording, so that rungc plays it without them."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.recording = Path(folder.name) / "recording"
+        self.map = MAP + f'[recording]\nfolder = "{self.recording}"\n'
+
+    def replay(self, *words, commands=""):
+        done = subprocess.run([BIN / "rungc", "replay", self.recording, *words], input=commands, capture_output=True, text=True, timeout=patience())
+        self.assertEqual(done.returncode, OK, done.stdout + done.stderr)
+        return done.stdout
+
+    def is_played(self):
+        """Ends the host, and plays all of its scans."""
+        scans = self.host.status()["scans"]
+        self.assertEqual(self.host.end(), OK)
+        segment, = self.recording.glob("*.rec")
+        self.assertEqual(struct.unpack_from("<I", segment.read_bytes(), 12), (2,))
+        said = re.search(r"(\d+) scans do what was recorded", self.replay(commands="compare\n"))
+        self.assertIsNotNone(said)
+        self.assertGreaterEqual(int(said[1]), scans)
+
+    def test_a_serial_port(self):
+        master, slave = pty.openpty()
+        self.addCleanup(os.close, master)
+        self.addCleanup(os.close, slave)
+        self.host = Host(BIN, self.map, options=["--com", f"1={os.ttyname(slave)}"], program=PROGRAMS / "com.plc")
+        self.addCleanup(self.host.end)
+        self.host.pass_by(2)
+        os.write(master, b"12")
+        self.host.pass_by(10)
+        self.set("DO2", 1)
+        self.sees((0x31, 0x32), "CODE", "GOT")
+        self.set("DO2", 1)
+        self.sees((True, True), "NONE1", "NONE2")
+        self.is_played()
+        self.assertIn("0x32", self.replay("--show", "GOT"))
+
+    def test_a_simulated_control(self):
+        self.host = Host(BIN, self.map, options=["--simulate", "--config", "param.2402=0"],
+                         program=Path("tests/scenarios/gsk/nc-mst.pmc").read_text())
+        self.addCleanup(self.host.end)
+        self.set("X8.4", 1)  # no emergency stop
+        self.sees((0x20, False), "F3", "F1.1")
+        self.host.ctl("event", "program", "blocks=O12 N10 M3 S1500; N20 T5; N30 M30")
+        for value in (1, 0):
+            self.set("X7.2", value)
+            self.host.pass_by(12)
+        self.sees((3, 1500), "F10:4", "F22:4")
+        self.host.pass_by(12)
+        self.is_played()
+        self.assertRegex(self.replay("--find", "F22:4 = 1500"), r"scan \d+")
 
 
 class Mistakes(unittest.TestCase):

@@ -50,7 +50,6 @@ private:
       numbers(3);
       return true;
     case Event::Inputs: return inputs();
-    case Event::Input: numbers(1); return bytes();
     case Event::Configured: numbers(4); return bytes();
     case Event::Function: numbers(3); return true;
     case Event::Abort:
@@ -60,7 +59,8 @@ private:
     case Event::Outputs: numbers(2 * reader_.takeNumber()); return true;
     case Event::Forces: numbers(3 * reader_.takeNumber()); return true;
     case Event::Part:
-      numbers(2);
+    case Event::Next:
+      numbers(event == Event::Part ? 2 : 0);
       group_.reset();
       to_.parts += whole_ ? 1 : 0;
       return true;
@@ -70,7 +70,6 @@ private:
     case Event::Within:
     case Event::Task:
     case Event::Hash: numbers(1); return true;
-    case Event::Bytes: numbers(1); return bytes();
     case Event::Reply:
     case Event::Answer:
     case Event::Request:
@@ -95,8 +94,16 @@ private:
       whole_ = false;
       add(Landmark::Kind::Lost, "events are missing");
       return true;
+    case Event::Bytes:
+    case Event::Input:
+    case Event::Places: break; // the last one is only in states of a player
     }
-    return false;
+    return runtime::isRun(event) && written(event);
+  }
+  bool written(Event first) {
+    runtime::Places::Run run;
+    std::span<const uint8_t> bytes;
+    return runtime::takeRun(reader_, places_, first, run, bytes);
   }
   bool bytes() {
     (void)reader_.takeBytes(reader_.takeNumber());
@@ -114,6 +121,7 @@ private:
     if (!reader_.good()) return false;
     to_.states.push_back({segment_, group_.value_or(at), reader_.position(), to_.parts});
     group_.reset();
+    places_.clear();
     whole_ = true;
     return true;
   }
@@ -121,6 +129,7 @@ private:
   Contents& to_;
   uint32_t segment_;
   EventReader reader_;
+  runtime::Places places_;
   std::optional<size_t> group_; // where the events before a state begin
   bool whole_ = false;
 };

@@ -234,17 +234,26 @@ constexpr const char* kProgram = "dialect gsk\nsymbol GO X0.0\nsymbol LAMP Y0.0\
                                  "FUNC END1\n; lamp\nLD GO\nANI R0.0\nOUT LAMP\n"
                                  "; late\nLD LAMP\nFUNC TMRB\nPRM 1\nPRM 40\nOUT LATE\nFUNC END2\n";
 
-struct Host {
-  explicit Host(const std::string& folder) {
+struct Program {
+  explicit Program(const std::string& text) {
     Diagnostics diagnostics;
-    const FileId files[] = {sources.addBuffer("t.pmc", kProgram)};
+    const FileId files[] = {sources.addBuffer("t.pmc", text)};
     compiler::CompileRequest request;
     request.marks = request.keepBuilt = true;
     auto result = compiler::compile(sources, files, request, diagnostics);
     EXPECT_TRUE(result) << renderText(diagnostics, sources);
     compiled = std::make_unique<compiler::Compiled>(std::move(*result));
     engine = std::move(compiler::makeEngine(compiler::EngineKind::Interp, *compiled, {})).value();
-    const rung::Image image = rung::Image::adopt(engine->program(), engine->context());
+  }
+  rung::Image image() const { return rung::Image::adopt(engine->program(), engine->context()); }
+  SourceManager sources;
+  std::unique_ptr<compiler::Compiled> compiled;
+  std::unique_ptr<runtime::Engine> engine;
+};
+
+struct Host : Program {
+  explicit Host(const std::string& folder) : Program(kProgram) {
+    const rung::Image image = this->image();
     rung::Instance instance(image);
     const rung_recording_options options{.size = sizeof options, .state_ms = 2000, .folder = folder.c_str()};
     EXPECT_EQ(rung_instance_record(instance.handle(), &options), RUNG_OK) << rung_error_text();
@@ -260,9 +269,6 @@ struct Host {
     EXPECT_EQ(rung_instance_record(instance.handle(), nullptr), RUNG_OK);
   }
   static constexpr int kScans = 1500;
-  SourceManager sources;
-  std::unique_ptr<compiler::Compiled> compiled;
-  std::unique_ptr<runtime::Engine> engine;
   std::vector<uint8_t> lamps, lates;
 };
 
@@ -296,10 +302,55 @@ TEST(HostRecording, IsPlayedWithItsControlFromAnyPlace) {
       if (past.part() > 1) ASSERT_EQ(past.goTo(past.part() - 1), "");
     }
   }
+  ASSERT_EQ(past.goTo(past.contents().parts), "");
+  EXPECT_EQ(differencesOf(past), "");
   const std::string words[] = {"LATE @ 190"};
   const Result<std::string> why = console.why(words, false);
   ASSERT_TRUE(why.ok()) << why.error();
   EXPECT_THAT(why.value(), HasSubstr("GO (X0.0) = 1, since scan 101"));
+}
+
+// A program that was prepared before the recording began is not recorded, which the recording says; what runs before
+// and after it is.
+TEST(HostRecording, SaysThatAReplacementWasPreparedBefore) {
+  const TemporaryFolder folder;
+  std::string text = kProgram;
+  text.replace(text.find("PRM 40"), 6, "PRM 56");
+  Program first(kProgram), second(text);
+  const rung::Image image = first.image(), other = second.image();
+  rung::Instance instance(image);
+  instance.powerOn(rung::Power::Cold);
+  rung_replacement* early = nullptr;
+  ASSERT_EQ(rung_replacement_new(instance.handle(), other.handle(), nullptr, 0, &early), RUNG_OK) << rung_error_text();
+  const std::string path = folder / "recording";
+  const rung_recording_options options{.size = sizeof options, .state_ms = 2000, .folder = path.c_str()};
+  ASSERT_EQ(rung_instance_record(instance.handle(), &options), RUNG_OK) << rung_error_text();
+  const auto problem = [&] {
+    rung_recording_info info{.size = sizeof info};
+    EXPECT_EQ(rung_instance_recording(instance.handle(), &info), RUNG_OK);
+    return std::string(info.problem);
+  };
+  const auto scans = [&](int count) {
+    for (int i = 0; i < count; ++i) EXPECT_EQ(instance.scan(), RUNG_OK);
+  };
+  scans(100);
+  EXPECT_EQ(problem(), "");
+  ASSERT_EQ(rung_instance_replace(instance.handle(), early), RUNG_OK) << rung_error_text();
+  scans(50);
+  EXPECT_THAT(problem(), HasSubstr("prepared before the recording began"));
+  ASSERT_EQ(rung_instance_replace(instance.handle(), early), RUNG_OK) << rung_error_text(); // the former one is back
+  scans(70);
+  EXPECT_EQ(problem(), "");
+  EXPECT_EQ(rung_instance_record(instance.handle(), nullptr), RUNG_OK);
+  EXPECT_EQ(rung_replacement_free(early), RUNG_OK);
+  std::vector<std::unique_ptr<compiler::Compiled>> known;
+  known.push_back(std::move(first.compiled));
+  const Result<Recording> recording = readRecording(path, std::move(known));
+  ASSERT_TRUE(recording.ok()) << recording.error();
+  const auto past = open(recording.value());
+  EXPECT_EQ(played(*past).size(), 170u);
+  EXPECT_EQ(past->problem(), "");
+  EXPECT_EQ(differencesOf(*past), "");
 }
 
 } // namespace

@@ -1,71 +1,95 @@
 // See recorder.h.
 #include "tools/bench/machines/recorder.h"
 
+#include <algorithm>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
-#include "compiler/engines.h"
-#include "tools/bench/machines/replay.h"
+#include "rtlib/load/program_info.h"
 
 namespace rung::bench {
 
-struct Recorder::Beside {
-  Beside(scenario::Session& of, const compiler::Compiled& program)
-      : session(of), engine(engineOf(program)), image(rung::Image::adopt(engine->program(), engine->context())),
-        replay(image), inSlots(of.nc().control().runsInSlots()) {}
-
-  static std::unique_ptr<runtime::Engine> engineOf(const compiler::Compiled& program) {
-    auto engine = compiler::makeEngine(compiler::EngineKind::Interp, program, {});
-    if (!engine.ok()) throw std::runtime_error(engine.error());
-    return std::move(engine).value();
-  }
-
-  scenario::Session& session;
-  std::unique_ptr<runtime::Engine> engine;
-  rung::Image image;
-  Replay replay;
-  bool inSlots;
-  bool within = false; // within a scan
-  bool ended = false;  // the scenario has switched the program on again
-  Recording recording;
-  std::string problem;
-};
-
 namespace {
 
-// The differing bytes, as runs of bytes. Hidden cells of the compiler are the program's own and left out.
-std::vector<Writes> differences(const runtime::Instance& from, const runtime::Instance& to) {
-  std::vector<Writes> all;
-  const rung_program& program = to.program();
-  for (uint32_t space = 0; space < program.space_count; ++space) {
-    if ((program.spaces[space].flags & RUNG_SPACE_HIDDEN) != 0) continue;
-    uint32_t last = 0;
-    for (uint32_t byte = 0; byte < program.spaces[space].byte_count; ++byte) {
-      const uint8_t value = to.memory().readByte(space, byte);
-      if (from.memory().readByte(space, byte) == value) continue;
-      if (all.empty() || all.back().space != program.spaces[space].name || last + 1 != byte)
-        all.push_back({.space = program.spaces[space].name, .byte = byte, .bytes = {}});
-      all.back().bytes.push_back(value);
-      last = byte;
-    }
-  }
-  return all;
+// Of each offset of the block the byte that it holds or is a part of. Hidden cells of the compiler are the program's
+// own and left out, as bytes of no space.
+std::vector<runtime::LogicalByte> bytesOf(const rung_program& program) {
+  std::vector<runtime::LogicalByte> bytes(program.memory_size);
+  for (uint32_t offset = 0; offset < program.memory_size; ++offset)
+    if (const auto byte = runtime::byteAt(program, offset);
+        byte && (program.spaces[byte->space].flags & RUNG_SPACE_HIDDEN) == 0)
+      bytes[offset] = *byte;
+  return bytes;
 }
 
 } // namespace
 
-Recorder::Recorder(scenario::Session& session, const compiler::Compiled& program)
-    : beside_(std::make_unique<Beside>(session, program)) {
+struct Recorder::Beside {
+  Beside(scenario::Session& of, const compiler::Compiled& program, compiler::EngineKind kind, EachPart receiver)
+      : session(of), each(std::move(receiver)), engine(engineOf(program, kind)),
+        image(rung::Image::adopt(engine->program(), engine->context())), replay(image), bytes(bytesOf(engine->program())),
+        inSlots(of.nc().control().runsInSlots()) {}
+
+  static std::unique_ptr<runtime::Engine> engineOf(const compiler::Compiled& program, compiler::EngineKind kind) {
+    auto engine = compiler::makeEngine(kind, program, {});
+    if (!engine.ok()) throw std::runtime_error(engine.error());
+    return std::move(engine).value();
+  }
+
+  std::vector<Writes> differences(const runtime::Instance& to) const;
+
+  scenario::Session& session;
+  EachPart each;
+  std::unique_ptr<runtime::Engine> engine;
+  rung::Image image;
+  Replay replay;
+  std::vector<runtime::LogicalByte> bytes; // by offset in the block
+  bool inSlots;
+  bool within = false; // within a scan
+  bool runs = false;   // parts have run
+  bool ended = false;  // the scenario has switched the program on again
+  std::string problem;
+};
+
+// The differing bytes, as runs of bytes.
+std::vector<Writes> Recorder::Beside::differences(const runtime::Instance& to) const {
+  const std::span<const uint8_t> from = replay.inside().block(), now = to.block();
+  std::set<std::pair<uint32_t, uint32_t>> different; // space, byte
+  for (size_t at = 0; at < bytes.size();) {
+    at = static_cast<size_t>(std::mismatch(from.begin() + static_cast<ptrdiff_t>(at),
+                                           from.begin() + static_cast<ptrdiff_t>(bytes.size()),
+                                           now.begin() + static_cast<ptrdiff_t>(at))
+                                 .first -
+                             from.begin());
+    if (at < bytes.size() && bytes[at].space != RUNG_NONE) different.emplace(bytes[at].space, bytes[at].byte);
+    ++at;
+  }
+  std::vector<Writes> all;
+  const rung_program& program = to.program();
+  uint32_t lastSpace = RUNG_NONE, lastByte = 0;
+  for (const auto& [space, byte] : different) {
+    if (space != lastSpace || byte != lastByte + 1)
+      all.push_back({.space = program.spaces[space].name, .byte = byte, .bytes = {}});
+    all.back().bytes.push_back(to.memory().readByte(space, byte));
+    lastSpace = space, lastByte = byte;
+  }
+  return all;
+}
+
+Recorder::Recorder(scenario::Session& session, const compiler::Compiled& program, compiler::EngineKind engine,
+                   EachPart each)
+    : beside_(std::make_unique<Beside>(session, program, engine, std::move(each))) {
   session.addObserver(*this);
 }
 
 Recorder::~Recorder() = default;
 
-const Recording& Recorder::recording() const { return beside_->recording; }
+Replay& Recorder::replay() { return beside_->replay; }
 const std::string& Recorder::problem() const { return beside_->problem; }
 
 void Recorder::started(scenario::Session& session) {
-  beside_->ended = !beside_->recording.parts.empty();
+  beside_->ended = beside_->runs;
   session.instance().setTaskWatch(beside_->ended ? nullptr : this);
 }
 
@@ -79,13 +103,12 @@ void Recorder::scanned(const scenario::Session& session) {
 void Recorder::begins(const runtime::Instance& instance, uint32_t task) {
   const bool partBegins = beside_->inSlots ? task == instance.program().fast_task : !beside_->within;
   if (!partBegins || beside_->ended || !beside_->problem.empty()) return;
-  beside_->within = true;
-  Part part{.writes = differences(beside_->replay.inside(), instance), .hash = 0};
+  beside_->within = beside_->runs = true;
+  Part part{.writes = beside_->differences(instance), .hash = 0};
   beside_->replay.write(part);
   beside_->replay.run();
   beside_->replay.drain();
-  part.hash = beside_->replay.hash();
-  beside_->recording.parts.push_back(std::move(part));
+  beside_->each(std::move(part));
 }
 
 } // namespace rung::bench

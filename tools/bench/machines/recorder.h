@@ -1,8 +1,11 @@
 // Makes a recording of a scenario.
 #pragma once
+#include <functional>
 #include <memory>
 
+#include "compiler/engines.h"
 #include "tools/bench/machines/recording.h"
+#include "tools/bench/machines/replay.h"
 #include "tools/scenario/session.h"
 
 namespace rung::bench {
@@ -12,13 +15,15 @@ namespace rung::bench {
 // recording ends where the scenario switches the program on again.
 class Recorder final : public scenario::Observer, public runtime::TaskWatch {
 public:
-  // Throws std::runtime_error if the program cannot run alone.
-  Recorder(scenario::Session& session, const compiler::Compiled& program);
+  // After it has run; its hash is not computed.
+  using EachPart = std::function<void(Part&& part)>;
+  // `engine`: of the copy. Throws std::runtime_error if the program cannot run alone.
+  Recorder(scenario::Session& session, const compiler::Compiled& program, compiler::EngineKind engine, EachPart each);
   ~Recorder() override;
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
 
-  const Recording& recording() const;
+  Replay& replay(); // the copy
   // "" or why the recording cannot be used.
   const std::string& problem() const;
 

@@ -1,6 +1,7 @@
 // See replay.h.
 #include "tools/bench/machines/replay.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "ir/support/hash.h"
@@ -90,6 +91,12 @@ std::vector<uint8_t> Replay::ownBytes(const Recording& recording) const {
     probe.run();
     probe.drain();
   }
+  // Of a byte whose bits lie apart, all or none.
+  for (const Part& part : recording.parts)
+    eachByte(part, [&](uint32_t, uint32_t, uint32_t offset, uint32_t bytes) {
+      const auto first = own.begin() + offset;
+      if (std::find(first, first + bytes, 0) != first + bytes) std::fill_n(first, bytes, 0);
+    });
   return own;
 }
 
@@ -107,6 +114,15 @@ runtime::RecordingState Replay::recorded() {
   instance_.handle()->recorder->stream().flush();
   writer_->look();
   return writer_->state();
+}
+
+void Replay::addProgram(uint64_t hash, const std::string& ir) {
+  writer_->addProgram(hash, {reinterpret_cast<const uint8_t*>(ir.data()), ir.size()});
+}
+
+void Replay::endRecord() {
+  writer_.reset();
+  instance_.handle()->recorder.reset();
 }
 
 void Replay::drain() {

@@ -28,6 +28,8 @@ public:
   // so far.
   void record(const Recording& recording, const std::string& folder);
   runtime::RecordingState recorded();
+  void addProgram(uint64_t hash, const std::string& ir); // to the folder
+  void endRecord();
   // Empties the queues that a host would empty between two parts.
   void drain();
   const runtime::Instance& inside() const { return inside_; }

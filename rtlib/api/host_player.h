@@ -41,6 +41,7 @@ public:
   // Messages of the program are in the queue of the instance after each part.
   rung_instance* instance() { return instance_; }
   runtime::Instance& running() { return instance_->running; }
+  const nc::Control& control() const { return *instance_->control; }
 
   // As in runtime::Player.
   void setEvents(std::span<const uint8_t> events);

@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "rtlib/nc/control/control.h"
 #include "tools/replay/recording.h"
 #include "tools/replay/stage.h"
 
@@ -66,9 +67,15 @@ public:
   runtime::Instance& flowInstance() { return stage().flowInstance(); }
   // The state before that part, of the same program; empty: the program was started, or a state loaded, in between.
   std::span<const uint8_t> blockBefore() const { return blockBefore_; }
+  // What others wrote before that part and within it.
+  std::span<const OutsideWrite> outsideWrites() const { return outside_; }
 
-  // Sees what comes to the program from outside while `next` runs it, in the program of now. Null: none.
-  void watch(runtime::OutsideWatch* watch) { stage().player().instance().setOutsideWatch(watch); }
+  // Sees what comes to the program from outside while it is played, whichever program runs. Null: none.
+  void watch(runtime::OutsideWatch* watch);
+  // The control that plays, whose messages are those of the present position; null if it does not run again. `attach`
+  // makes another one see the program of now, without changing anything.
+  const nc::Control* control() const { return stages_[stageNumber_]->player().control(); }
+  void attach(nc::Control& control) { control.onReplace(stage().player().instance()); }
   // The messages that the program has sent in the last part that `next` has run.
   std::span<const rung_message> sent() const { return sent_; }
   // Whether outputs are compared after each part, as they are at first: playing is faster without it.
@@ -115,9 +122,11 @@ private:
   size_t keptBytes_ = 0;
   std::vector<uint64_t> keptOrder_; // parts, the oldest first
   std::vector<uint8_t> blockBefore_;
+  std::vector<OutsideWrite> outside_;
   std::vector<Difference> differences_;
   bool comparesOutputs_ = true;
   std::vector<rung_message> sent_;
+  runtime::OutsideWatch* watch_ = nullptr;
 };
 
 // "scan 12, 0.120 s": parts and time as the prompt of `rungc run` counts them.

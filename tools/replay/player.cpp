@@ -31,6 +31,7 @@ class BytesPlayer final : public Wrapped<runtime::Player> {
 public:
   BytesPlayer(runtime::Engine& engine, runtime::PlayerOwner& owner) : instance_(engine), player_(instance_, owner) {}
   runtime::Instance& instance() override { return instance_; }
+  const nc::Control* control() const override { return nullptr; }
   void compareOutputs(bool compares) override { player_.compareOutputs(compares); }
   std::vector<uint8_t> state() override {
     core::Saver counted({});
@@ -62,6 +63,7 @@ public:
   ControlPlayer(runtime::Engine& engine, runtime::PlayerOwner& owner)
       : image_(rung::Image::adopt(engine.program(), engine.context())), player_(image_.handle(), owner) {}
   runtime::Instance& instance() override { return player_.running(); }
+  const nc::Control* control() const override { return &player_.control(); }
   void compareOutputs(bool) override {} // of such a recording only states are compared
   std::vector<uint8_t> state() override { return player_.state(); }
 

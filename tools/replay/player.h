@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "rtlib/load/engine.h"
+#include "rtlib/nc/control/control.h"
 #include "rtlib/record/player.h"
 #include "rtlib/record/recording_file.h"
 #include "rtlib/run/instance.h"
@@ -17,6 +18,8 @@ class AnyPlayer {
 public:
   virtual ~AnyPlayer() = default;
   virtual runtime::Instance& instance() = 0;
+  // Of the dialect; null if it does not run again.
+  virtual const nc::Control* control() const = 0;
   // As in runtime::Player.
   virtual void setEvents(std::span<const uint8_t> events) = 0;
   virtual size_t position() const = 0;

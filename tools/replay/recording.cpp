@@ -16,14 +16,68 @@ namespace {
 using runtime::Event;
 using runtime::EventReader;
 
+constexpr uint64_t kMostParts = uint64_t{1} << 48;   // of a recording; a damaged one may say more
+constexpr uint64_t kMostNumbers = uint64_t{1} << 48; // of a list
+
+void skipNumbers(EventReader& reader, uint64_t count) {
+  for (; count != 0 && reader.good(); --count) (void)reader.takeNumber();
+}
+bool skipBytes(EventReader& reader) {
+  (void)reader.takeBytes(reader.takeNumber());
+  return true;
+}
+
+// The numbers of an event. False: there is no such event.
+bool skipEvent(EventReader& reader, Event event) {
+  switch (event) {
+  case Event::State: return skipBytes(reader);
+  case Event::Inputs:
+    for (uint64_t count = reader.takeNumber(); count != 0 && reader.good(); --count) {
+      skipNumbers(reader, 1);
+      skipBytes(reader);
+    }
+    return true;
+  case Event::Configured: skipNumbers(reader, 4); return skipBytes(reader);
+  case Event::Surroundings:
+  case Event::Function: skipNumbers(reader, 3); return true;
+  case Event::Part: skipNumbers(reader, 2); return true;
+  case Event::Outputs: skipNumbers(reader, 2 * std::min(reader.takeNumber(), kMostNumbers)); return true;
+  case Event::Forces: skipNumbers(reader, 3 * std::min(reader.takeNumber(), kMostNumbers)); return true;
+  case Event::Program:
+  case Event::Repeat:
+  case Event::Clock:
+  case Event::Stopped:
+  case Event::Within:
+  case Event::Task:
+  case Event::Hash:
+  case Event::Abort:
+  case Event::Served:
+  case Event::Decision: skipNumbers(reader, 1); return true;
+  case Event::Input:
+  case Event::Bytes: skipNumbers(reader, 1); return skipBytes(reader);
+  case Event::Reply:
+  case Event::Answer: skipNumbers(reader, 2); skipNumbers(reader, reader.takeNumber()); return true;
+  case Event::Request: skipNumbers(reader, 1); skipNumbers(reader, reader.takeNumber()); return true;
+  case Event::Fault: skipNumbers(reader, 4); return true;
+  case Event::Mark: return skipBytes(reader);
+  case Event::Ended:
+  case Event::Anew:
+  case Event::Lost:
+  case Event::Saved: return true;
+  }
+  return false;
+}
+
 class Skimmer {
 public:
-  Skimmer(Contents& to, uint32_t segment, const Segment& of) : to_(to), segment_(segment), reader_(of.events) {}
+  Skimmer(Contents& to, uint32_t segment, const Segment& of, const Contents::See& see)
+      : to_(to), segment_(segment), reader_(of.events), see_(see) {}
 
   void run() {
     while (!reader_.atEnd()) {
       const size_t at = reader_.position();
       const Event event = reader_.takeEvent();
+      if (see_) see_(event, to_.parts);
       const bool known = take(event, at);
       if (known && reader_.good()) continue;
       add(Landmark::Kind::Damaged, fmt::format("damaged at byte {} of segment {}", at, segment_ + 1));
@@ -33,59 +87,23 @@ public:
 
 private:
   void add(Landmark::Kind kind, std::string text) { to_.landmarks.push_back({kind, to_.parts, std::move(text)}); }
-  void numbers(uint64_t count) {
-    for (; count != 0 && reader_.good(); --count) (void)reader_.takeNumber();
-  }
 
   // False: there is no such event, or it cannot be here.
   bool take(Event event, size_t at) {
+    if (event == Event::Program || (event == Event::Surroundings && !group_)) group_ = at;
     switch (event) {
     case Event::State: return state(at);
-    case Event::Program:
-      group_ = at;
-      numbers(1);
-      return true;
-    case Event::Surroundings:
-      if (!group_) group_ = at;
-      numbers(3);
-      return true;
-    case Event::Inputs: return inputs();
-    case Event::Input: numbers(1); return bytes();
-    case Event::Configured: numbers(4); return bytes();
-    case Event::Function: numbers(3); return true;
-    case Event::Abort:
-    case Event::Served:
-    case Event::Decision: numbers(1); return true;
-    case Event::Saved: return true;
-    case Event::Outputs: numbers(2 * reader_.takeNumber()); return true;
-    case Event::Forces: numbers(3 * reader_.takeNumber()); return true;
+    case Event::Forces: return forces();
+    case Event::Repeat: return repeat();
     case Event::Part:
-      numbers(2);
       group_.reset();
       to_.parts += whole_ ? 1 : 0;
-      return true;
-    case Event::Repeat: to_.parts += whole_ ? reader_.takeNumber() : (numbers(1), 0); return true;
-    case Event::Clock:
-    case Event::Stopped:
-    case Event::Within:
-    case Event::Task:
-    case Event::Hash: numbers(1); return true;
-    case Event::Bytes: numbers(1); return bytes();
-    case Event::Reply:
-    case Event::Answer:
-    case Event::Request:
-      numbers(event == Event::Request ? 1 : 2);
-      numbers(reader_.takeNumber());
-      return true;
-    case Event::Ended: return true;
-    case Event::Fault:
-      numbers(4);
-      add(Landmark::Kind::Fault, "the program stopped with a fault");
-      return true;
+      break;
+    case Event::Fault: add(Landmark::Kind::Fault, "the program stopped with a fault"); break;
     case Event::Anew:
       whole_ = false;
       add(Landmark::Kind::Start, "started, or another state loaded");
-      return true;
+      break;
     case Event::Mark: {
       const std::span<const uint8_t> text = reader_.takeBytes(reader_.takeNumber());
       add(Landmark::Kind::Note, {reinterpret_cast<const char*>(text.data()), text.size()});
@@ -94,23 +112,34 @@ private:
     case Event::Lost:
       whole_ = false;
       add(Landmark::Kind::Lost, "events are missing");
-      return true;
+      break;
+    default: break;
     }
-    return false;
+    return skipEvent(reader_, event);
   }
-  bool bytes() {
-    (void)reader_.takeBytes(reader_.takeNumber());
+  bool repeat() {
+    const uint64_t count = reader_.takeNumber();
+    if (!whole_) return true;
+    if (count > kMostParts - to_.parts) return false;
+    to_.parts += count;
     return true;
   }
-  bool inputs() {
+  bool forces() {
+    ForceChange change{.part = to_.parts, .bits = {}};
     for (uint64_t count = reader_.takeNumber(); count != 0 && reader_.good(); --count) {
-      numbers(1);
-      bytes();
+      const uint32_t offset = reader_.takeNumber32(), mask = reader_.takeNumber32(), value = reader_.takeNumber32();
+      change.bits.push_back({offset, static_cast<uint8_t>(mask), static_cast<uint8_t>(value)});
     }
+    const auto same = [](const core::ForcedBits& a, const core::ForcedBits& b) {
+      return a.offset == b.offset && a.mask == b.mask && a.value == b.value;
+    };
+    const bool known = to_.forces.empty() ? change.bits.empty()
+                                          : std::ranges::equal(to_.forces.back().bits, change.bits, same);
+    if (!known && reader_.good()) to_.forces.push_back(std::move(change));
     return true;
   }
   bool state(size_t at) {
-    bytes();
+    skipBytes(reader_);
     if (!reader_.good()) return false;
     to_.states.push_back({segment_, group_.value_or(at), reader_.position(), to_.parts});
     group_.reset();
@@ -121,16 +150,43 @@ private:
   Contents& to_;
   uint32_t segment_;
   EventReader reader_;
+  const Contents::See& see_;
   std::optional<size_t> group_; // where the events before a state begin
   bool whole_ = false;
 };
 
 } // namespace
 
-Contents::Contents(const Recording& recording) {
+std::vector<OutsideWrite> outsideWrites(std::span<const uint8_t> events, size_t at, runtime::RecordingMode mode) {
+  using By = OutsideWrite::By;
+  std::vector<OutsideWrite> writes;
+  EventReader reader(events.subspan(at));
+  const bool controlRuns = mode == runtime::RecordingMode::Control;
+  bool inPart = false, within = false;
+  while (!reader.atEnd()) {
+    const Event event = reader.next();
+    const bool isWrite = event == Event::Bytes || event == Event::Input;
+    const bool ofNext = event == Event::Part || event == Event::Repeat || event == Event::Ended || (isWrite && !within);
+    if (inPart && ofNext) return writes;
+    (void)reader.takeEvent();
+    if (!isWrite) {
+      inPart = inPart || event == Event::Part;
+      within = within || event == Event::Within;
+      if (!skipEvent(reader, event)) return writes;
+      continue;
+    }
+    const uint32_t offset = reader.takeNumber32();
+    const auto count = static_cast<uint32_t>(reader.takeBytes(reader.takeNumber()).size());
+    const By by = event == Event::Input ? By::Machine : controlRuns ? By::Client : inPart ? By::Control : By::Any;
+    if (reader.good()) writes.push_back({offset, count, by});
+  }
+  return writes;
+}
+
+Contents::Contents(const Recording& recording, const See& see) {
   for (uint32_t i = 0; i < recording.segments.size(); ++i) {
     segmentParts.push_back(parts);
-    Skimmer(*this, i, recording.segments[i]).run();
+    Skimmer(*this, i, recording.segments[i], see).run();
     if (const std::string& damage = recording.segments[i].damage; !damage.empty())
       landmarks.push_back({Landmark::Kind::Damaged, parts, damage});
   }

@@ -44,13 +44,22 @@ struct PartFacts {
   std::vector<std::vector<uint64_t>> values; // by run
   std::vector<uint8_t> before;               // memory; empty: it does not follow from before
   std::vector<core::ForcedBits> forced;
+  std::vector<OutsideWrite> outside;
   int64_t us = 0;
 };
+
+// Bits of a cell that are forced, and to what.
+struct Held {
+  uint64_t mask = 0, value = 0;
+  uint64_t in(uint64_t now) const { return (now & ~mask) | value; }
+};
+
+uint64_t maskOf(uint32_t bits) { return bits >= 64 ? ~uint64_t{0} : (uint64_t{1} << bits) - 1; }
 
 class Inquiry {
 public:
   Inquiry(Past& past, const WhyOptions& options)
-      : past_(past), options_(options), programNumber_(past.programNumber()) {}
+      : past_(past), options_(options), programNumber_(past.programNumber()), asked_(past.part()) {}
 
   Explanation run(const runtime::Ref& place) {
     const uint64_t here = past_.part();
@@ -163,6 +172,7 @@ private:
     facts->us = past_.instance().nowUs();
     const std::span<const core::ForcedBits> forced = past_.instance().forcedBits();
     facts->forced.assign(forced.begin(), forced.end());
+    facts->outside.assign(past_.outsideWrites().begin(), past_.outsideWrites().end());
     return *facts_.emplace(part, std::move(facts)).first->second;
   }
 
@@ -210,18 +220,28 @@ private:
     return reason;
   }
 
-  bool isForced(const Cell& cell, const PartFacts& facts) {
-    if (cell.slot.valid() || facts.forced.empty()) return false;
-    for (uint32_t i = 0; i < cell.bits.count; ++i) {
-      const uint32_t bit = cell.bits.first + i;
-      const core::Place at = past_.instance().memory().locateBit(cell.bits.space.index, bit / 8, bit % 8);
-      const bool held = !at.outside() && std::ranges::any_of(facts.forced, [&](const core::ForcedBits& forced) {
-        return forced.offset == at.offset() && (forced.mask >> at.bit() & 1) != 0;
-      });
-      if (held) return true;
-    }
-    return false;
+  // The byte of the block and the bit in it; nothing: it has none of its own.
+  std::optional<std::pair<uint32_t, uint32_t>> blockBit(const Cell& cell, uint32_t i) {
+    const uint32_t bit = cell.bits.first + i;
+    const core::Place at = past_.instance().memory().locateBit(cell.bits.space.index, bit / 8, bit % 8);
+    if (at.outside() || at.apart()) return std::nullopt;
+    return std::pair(at.offset(), at.bit());
   }
+  Held heldOf(const Cell& cell, std::span<const core::ForcedBits> forces) {
+    Held held;
+    if (cell.slot.valid() || forces.empty()) return held;
+    for (uint32_t i = 0; i < cell.bits.count; ++i) {
+      const auto at = blockBit(cell, i);
+      if (!at) continue;
+      for (const core::ForcedBits& forced : forces) {
+        if (forced.offset != at->first || (forced.mask >> at->second & 1) == 0) continue;
+        held.mask |= uint64_t{1} << i;
+        held.value |= uint64_t{forced.value >> at->second & 1u} << i;
+      }
+    }
+    return held;
+  }
+  bool isWhole(const Held& held, const Cell& cell) const { return held.mask == maskOf(cell.bits.count); }
 
   // The write before the moment by which the cell got the value that it has then; nothing: none in this part. `value`
   // becomes that value, `fromBefore` whether the cell had it when the part began.
@@ -229,8 +249,9 @@ private:
                                 bool& fromBefore) {
     std::optional<Within> last;
     const bool follows = !facts.before.empty() && !isTransient(cell);
-    uint64_t now = follows ? valueIn(facts.before, cell) : 0;
-    const uint64_t first = now;
+    const Held held = heldOf(cell, facts.forced);
+    const uint64_t first = follows ? valueIn(facts.before, cell) : 0;
+    uint64_t now = held.in(first);
     bool written = !follows;
     if (facts.flow)
       for (size_t r = 0; r < facts.flow->runs().size() && r <= moment.run; ++r) {
@@ -245,7 +266,7 @@ private:
             }
             continue;
           }
-          const uint64_t next = after(now, accesses[a], cell);
+          const uint64_t next = held.in(after(now, accesses[a], cell));
           if (next != now || written) last = Within{r, a};
           written = false;
           now = next;
@@ -259,6 +280,8 @@ private:
   Reason reasonOf(const Cell& cell, uint64_t part, const Within& moment, std::optional<uint64_t> seen = {}) {
     ++count_;
     const PartFacts& facts = factsOf(part);
+    if (const Held held = heldOf(cell, facts.forced); held.mask != 0 && isWhole(held, cell))
+      return forced(cell, held.value, part);
     uint64_t value = 0;
     bool fromBefore = false;
     const std::optional<Within> write = writeIn(facts, cell, moment, value, fromBefore);
@@ -269,30 +292,74 @@ private:
     } else if (seen && *seen != value) {
       return outside(cell, *seen, part, facts);
     }
-    if (isForced(cell, facts)) return forced(cell, value, part);
     if (write) return wrote(cell, value, part, facts, *write);
     if (!fromBefore) return outside(cell, value, part, facts);
     const std::optional<uint64_t> change = lastChanges({cell}, part - 1)[0];
     if (!change) {
       (void)past_.goTo(past_.firstPart());
-      return plain(cell, value, Reason::Kind::Before, past_.part(), past_.instance().nowUs());
+      Reason reason = plain(cell, value, Reason::Kind::Before, past_.part(), past_.instance().nowUs());
+      reason.note = heldSince(cell, past_.part(), part);
+      return reason;
     }
-    return changedIn(cell, value, *change);
+    Reason reason = changedIn(cell, value, *change);
+    if (reason.kind != Reason::Kind::Forced && reason.note.empty()) reason.note = heldSince(cell, *change, part);
+    return reason;
   }
 
   // The cell got the value in this part, and had it at its end.
   Reason changedIn(const Cell& cell, uint64_t value, uint64_t part) {
     const PartFacts& facts = factsOf(part);
+    if (const Held held = heldOf(cell, facts.forced); held.mask != 0 && isWhole(held, cell))
+      return forced(cell, value, part);
     uint64_t then = 0;
     bool fromBefore = false;
     const std::optional<Within> write = writeIn(facts, cell, {}, then, fromBefore);
-    if (isForced(cell, facts)) return forced(cell, value, part);
     if (write && then == value) return wrote(cell, value, part, facts, *write);
     return outside(cell, value, part, facts);
   }
 
+  // ---- forces ----
+
+  // In the part that has led to `part`, and from when to when; the last force of it up to there.
+  struct Force {
+    uint64_t first = 0;           // the first part with it
+    std::optional<uint64_t> last; // nothing: it is still in effect
+    uint64_t value = 0;
+  };
+  std::optional<Force> lastForce(const Cell& cell, uint64_t upTo) {
+    std::optional<Force> force;
+    for (const ForceChange& change : past_.contents().forces) {
+      if (change.part >= upTo) break;
+      const Held held = heldOf(cell, change.bits);
+      const bool all = held.mask != 0 && isWhole(held, cell);
+      const bool goesOn = force && !force->last;
+      if (goesOn && (!all || held.value != force->value)) force->last = change.part;
+      if (all && (!goesOn || held.value != force->value)) force = Force{change.part + 1, std::nullopt, held.value};
+    }
+    return force;
+  }
+
   Reason forced(const Cell& cell, uint64_t value, uint64_t part) {
-    return plain(cell, value, Reason::Kind::Forced, part, factsOf(part).us);
+    const std::optional<Force> force = lastForce(cell, part);
+    const uint64_t since = force ? std::max(force->first, past_.firstPart()) : part;
+    Reason reason = plain(cell, value, Reason::Kind::Forced, since, timeOf(since));
+    reason.note = noteAt(reason.name, since);
+    std::optional<uint64_t> until;
+    for (const ForceChange& change : past_.contents().forces)
+      if (change.part >= part && !until && heldOf(cell, change.bits).mask == 0) until = change.part;
+    if (until && *until < asked_)
+      reason.note += fmt::format("{}the force was removed after scan {}, and nothing has written another value since",
+                                 reason.note.empty() ? "" : "; ", *until);
+    return reason;
+  }
+
+  // "" or that it was forced to the value that it has, after it got that in part `from`: what was written meanwhile had
+  // no effect.
+  std::string heldSince(const Cell& cell, uint64_t from, uint64_t part) {
+    const std::optional<Force> force = lastForce(cell, part);
+    if (!force || !force->last || *force->last <= from) return {};
+    return fmt::format("it was forced to {} from scan {} to scan {}; what rungs wrote meanwhile had no effect",
+                       shown(force->value, cell), std::max(force->first, from), *force->last);
   }
 
   // No rung wrote it in the part.
@@ -307,9 +374,28 @@ private:
         return reason;
       }
     }
-    Reason reason = plain(cell, value, Reason::Kind::Outside, part, facts.us);
-    reason.note = noteAt(reason.name, part);
+    Reason reason = plain(cell, value, writer(cell, facts), part, facts.us);
+    if (reason.kind == Reason::Kind::Outside) reason.note = noteAt(reason.name, part);
     return reason;
+  }
+  // Who wrote it, as far as the recording says.
+  Reason::Kind writer(const Cell& cell, const PartFacts& facts) {
+    Reason::Kind kind = cell.slot.valid() ? Reason::Kind::Outside : Reason::Kind::Control;
+    for (const OutsideWrite& write : facts.outside) {
+      bool touches = false;
+      for (uint32_t i = 0; i < cell.bits.count && !touches && !cell.slot.valid(); ++i) {
+        const auto at = blockBit(cell, i);
+        touches = at && at->first - write.offset < write.count;
+      }
+      if (!touches) continue;
+      switch (write.by) {
+      case OutsideWrite::By::Machine: kind = Reason::Kind::Machine; break;
+      case OutsideWrite::By::Client: kind = Reason::Kind::Client; break;
+      case OutsideWrite::By::Control: kind = Reason::Kind::Control; break;
+      case OutsideWrite::By::Any: kind = Reason::Kind::Outside; break;
+      }
+    }
+    return kind;
   }
   // What was copied at the beginning of a run is as before its first rung, what is copied at the end as after its last.
   Reason ofSource(const Cell& source, uint64_t part) { return reasonOf(source, part, {}); }
@@ -520,6 +606,7 @@ private:
   Past& past_;
   const WhyOptions& options_;
   const uint32_t programNumber_; // changes of the program end the search
+  const uint64_t asked_;         // the part of the question
   std::map<uint64_t, std::unique_ptr<PartFacts>> facts_;
   std::vector<std::pair<Cell, uint64_t>> visited_;
   std::vector<std::string> toChange_;
@@ -533,13 +620,18 @@ std::string sinceText(const Reason& reason) {
   return "since " + scenario::scanText(reason.part, reason.us);
 }
 
+} // namespace
+
 std::string kindText(const Reason& reason) {
   switch (reason.kind) {
   case Reason::Kind::Rung:
     return fmt::format("written by {}{}", reason.rung, reason.computed ? ", at a computed address" : "");
   case Reason::Kind::Copy: return "copied when a task began or ended";
   case Reason::Kind::Outside: return "written from outside: by the machine, the control or a person";
-  case Reason::Kind::Forced: return "forced";
+  case Reason::Kind::Machine: return "an input, written by the machine";
+  case Reason::Kind::Client: return "written by a person or another program, through the host";
+  case Reason::Kind::Control: return "written by the control";
+  case Reason::Kind::Forced: return "forced by a person";
   case Reason::Kind::Start: return "as the program was started, or a state loaded";
   case Reason::Kind::Before:
   case Reason::Kind::Clock:
@@ -548,6 +640,8 @@ std::string kindText(const Reason& reason) {
   }
   return {};
 }
+
+namespace {
 
 std::string operandText(const Reason& reason) {
   if (reason.kind == Reason::Kind::Clock || reason.kind == Reason::Kind::Answer) return reason.name;
@@ -567,8 +661,8 @@ void put(const Reason& reason, std::string& text) {
   }
 }
 
-constexpr std::string_view kKindNames[] = {"rung",   "copy",  "outside", "forced", "start",
-                                           "before", "clock", "answer",  "kept"}; // by Reason::Kind
+constexpr std::string_view kKindNames[] = {"rung",   "copy",  "outside", "machine", "client", "control",
+                                           "forced", "start", "before",  "clock",   "answer", "kept"}; // by Reason::Kind
 
 nlohmann::json jsonOfReason(const Reason& reason) {
   nlohmann::json json{{"kind", kKindNames[static_cast<size_t>(reason.kind)]},

@@ -18,6 +18,9 @@ struct Reason {
     Rung,    // a rung wrote it
     Copy,    // a task has copied it, at its beginning or end
     Outside, // the machine, the control or a person wrote it
+    Machine, // the host wrote it as an input
+    Client,  // a person or another program wrote it, through the host
+    Control, // the control or the machine wrote it, within the part
     Forced,  // a person holds it
     Start,   // it is so since the program was started, or a state was loaded
     Before,  // it is so since the recording began
@@ -62,6 +65,8 @@ Explanation why(Past& past, const runtime::Ref& place, const WhyOptions& options
 // Each write of the place in the part that has led to the present position: "rung 3 "title", main.pmc:12: 1".
 std::vector<std::string> writesOf(Past& past, const runtime::Ref& place);
 
+// What gave the value: "written by rung 3 …", "forced by a person"; "" if the chain says nothing about it.
+std::string kindText(const Reason& reason);
 // As lines of text; the first is that of the value itself.
 std::string textOf(const Explanation& explanation);
 std::string jsonOf(const Explanation& explanation);

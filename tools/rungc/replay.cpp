@@ -82,6 +82,8 @@ std::optional<replay::Recording> openRecording(ReplayOptions& options, int& stat
 }
 
 int runAsked(const ReplayOptions& options, replay::Past& past, replay::Console& console) {
+  int status = kOk;
+  const uint64_t here = past.part();
   for (const std::string& name : options.show) {
     const Result<std::string> line = console.shown(name);
     if (!line.ok()) return usageError(line.error());
@@ -96,7 +98,8 @@ int runAsked(const ReplayOptions& options, replay::Past& past, replay::Console& 
       if (const std::string problem = past.goTo(part); !problem.empty()) return environmentError(problem);
       fmt::print("{}\n", replay::positionText(past));
     }
-    if (found.value().empty()) return kWrong;
+    if (const std::string problem = past.goTo(here); !problem.empty()) return environmentError(problem);
+    if (found.value().empty()) status = kWrong;
   }
   if (!options.why.empty()) {
     const std::string words[] = {options.why};
@@ -105,12 +108,15 @@ int runAsked(const ReplayOptions& options, replay::Past& past, replay::Console& 
     fmt::print("{}\n", text.value());
   }
   if (!options.exported.empty()) {
-    const std::string problem = console.exportTo(options.exported, options.from.value_or(past.firstPart()),
-                                                 options.to.value_or(past.contents().parts), options.watch);
-    if (!problem.empty()) return usageError(problem);
+    const Result<std::vector<std::string>> lacks =
+        console.exportTo(options.exported, options.from.value_or(past.firstPart()),
+                         options.to.value_or(past.contents().parts), options.watch);
+    if (!lacks.ok()) return usageError(lacks.error());
     fmt::print("wrote {}\n", options.exported);
+    for (const std::string& lack : lacks.value()) fmt::print(stderr, "rungc: {}: {}\n", options.exported, lack);
+    if (!lacks.value().empty()) status = kWrong;
   }
-  return kOk;
+  return status;
 }
 
 int runReplay(ReplayOptions& options) {

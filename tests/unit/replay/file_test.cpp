@@ -214,13 +214,13 @@ TEST(ScenarioFile, DoesTheSame) {
   ASSERT_TRUE(recorded.ok());
   const auto past = open(recorded.value().recording);
   const TemporaryFolder folder;
-  const Result<std::string> text = scenarioOf(*past, folder / "panel.scn", past->firstPart(), 150);
+  const Result<ScenarioText> text = scenarioOf(*past, folder / "panel.scn", past->firstPart(), 150);
   ASSERT_TRUE(text.ok()) << text.error();
-  EXPECT_THAT(text.value(), HasSubstr("expect "));
-  EXPECT_THAT(text.value(), HasSubstr("set "));
-  const scenario::Scenario scenario = scenario::parse(folder / "panel.scn", text.value());
+  EXPECT_THAT(text.value().text, HasSubstr("expect "));
+  EXPECT_THAT(text.value().text, HasSubstr("set "));
+  const scenario::Scenario scenario = scenario::parse(folder / "panel.scn", text.value().text);
   const scenario::RunResult result = scenario::run(scenario, {.engines = {compiler::EngineKind::Interp}});
-  EXPECT_TRUE(result.passed) << text.value() << [&] {
+  EXPECT_TRUE(result.passed) << text.value().text << [&] {
     std::string problems = result.environment;
     for (const scenario::Problem& problem : result.problems) problems += scenario::textOf(problem) + "\n";
     return problems;

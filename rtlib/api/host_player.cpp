@@ -128,7 +128,7 @@ Played HostPlayer::playState() {
   const std::span<const uint8_t> bytes = reader_.takeBytes(reader_.takeNumber());
   if (!reader_.good() || !nextInputs_) return damaged();
   running().setNeededCopiesOnly(neededOnly_);
-  if (whole_) compareState(bytes);
+  if (whole_ && comparesStates_) compareState(bytes);
   core::Loader loader(bytes);
   if (loadState(*instance_, loader) != RUNG_OK) return damaged();
   inputs_ = std::exchange(nextInputs_, std::nullopt);
@@ -159,7 +159,9 @@ bool HostPlayer::takeBefore(Event event) {
   case Event::Surroundings: return takeSurroundings();
   case Event::Configured: return takeConfigured();
   case Event::Inputs:
-    nextInputs_ = runtime::InputBits::fromList(running().block().size(), reader_);
+    nextInputs_ = inputs_ && inputs_->takeSame(reader_)
+                      ? inputs_
+                      : runtime::InputBits::fromList(running().block().size(), reader_);
     // The configuration comes before the first power-on, and forces after it.
     if (!instance_->on) (void)rung_instance_power_on(instance_, RUNG_COLD);
     return nextInputs_.has_value();

@@ -54,6 +54,8 @@ public:
   // Events by which another player gets the present state, up to their end; empty within a scan, and before a state.
   std::vector<uint8_t> state();
   bool isWhole() const { return whole_; }
+  // Whether states are compared with the recorded ones, as they are at first.
+  void compareStates(bool compares) { comparesStates_ = compares; }
 
 private:
   static int32_t request(void* player, rung_instance* instance, const rung_request* request, rung_reply* reply);
@@ -81,6 +83,7 @@ private:
   runtime::BlockBytes bits_;
   bool neededOnly_ = false;
   bool served_ = false;
+  bool comparesStates_ = true;
   bool whole_ = false;
   bool failed_ = false;
   bool wasFaulted_ = false;

@@ -71,6 +71,8 @@ std::optional<InputBits> InputBits::fromList(size_t blockBytes, EventReader& rea
 
 void InputBits::set(uint64_t offset, std::span<const uint8_t> bytes) noexcept {
   for (Piece& piece : std::span(pieces_).first(used_)) {
+    if (piece.offset + kPiece <= offset) continue;
+    if (piece.offset >= offset + bytes.size()) break;
     auto known = std::bit_cast<std::array<uint8_t, kPiece>>(piece.known);
     const uint64_t first = std::max<uint64_t>(offset, piece.offset);
     const uint64_t end = std::min<uint64_t>(offset + bytes.size(), uint64_t{piece.offset} + kPiece);

@@ -63,7 +63,7 @@ public:
   uint32_t lastNumber() const { return number_; } // of its task or fault
   // What was different in the last call; nothing if all was as recorded.
   const std::optional<PlayedDifference>& difference() const { return difference_; }
-  // Whether outputs are compared after each part, as they are at first; states are in any case.
+  // Whether outputs after each part, and states, are compared with the recorded ones, as they are at first.
   void compareOutputs(bool compares);
   // The state that the recording has at this place is compared with that of the instance, if there is one.
   bool isWhole() const { return whole_; }

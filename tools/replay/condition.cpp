@@ -298,11 +298,7 @@ void search(Past& past, Condition& condition, const Condition::Locate& locate, u
             std::string& problem, Found found) {
   problem = past.goTo(from);
   if (!problem.empty()) return;
-  struct Comparing { // what differs is of no interest meanwhile
-    explicit Comparing(Past& of) : past(of) { past.compareOutputs(false); }
-    ~Comparing() { past.compareOutputs(true); }
-    Past& past;
-  } const comparing(past);
+  const NotCompared notCompared(past);
   const auto memory = [&] { return past.instance().memory(); };
   uint32_t program = past.programNumber();
   problem = condition.locate(locate);

@@ -157,6 +157,7 @@ Outcome Console::move(Words words, bool forwards) {
   // Within a scan, back goes to its beginning.
   const uint64_t here = past_.part() - (runs_ && forwards ? 1 : 0);
   if (!forwards && count > here - past_.firstPart()) return fail("the recording begins here");
+  if (forwards && count > past_.contents().parts - here) return fail(past_.rangeText());
   return arrived(past_.goTo(forwards ? here + count : here - count));
 }
 
@@ -427,7 +428,7 @@ Result<std::vector<std::string>> Console::exportTo(const std::string& path, uint
                                                    std::vector<std::string> names) {
   if (from >= to) return failure(fmt::format("the first scan, {}, is not before the last one, {}", from, to));
   if (to > past_.contents().parts || from < past_.firstPart())
-    return failure(fmt::format("the recording has scans {} to {}", past_.firstPart(), past_.contents().parts));
+    return failure(past_.rangeText());
   runs_.reset();
   if (!path.ends_with(".scn")) return exportTrace(path, from, to, std::move(names));
   if (!names.empty()) return failure("a scenario has what others wrote, and no list of names");
@@ -444,7 +445,7 @@ Result<std::vector<std::string>> Console::exportTrace(const std::string& path, u
     return failure(std::move(wrong));
   auto trace = scenario::Trace::open(path, names, past_.instance(), *nc_);
   if (!trace.ok()) return trace.failure();
-  past_.compareOutputs(false);
+  const NotCompared notCompared(past_);
   uint32_t program = past_.programNumber();
   int64_t us = past_.instance().nowUs();
   while (past_.part() < to && past_.next()) {
@@ -454,7 +455,6 @@ Result<std::vector<std::string>> Console::exportTrace(const std::string& path, u
     if (now < std::exchange(us, now)) trace.value()->clockSet(now); // it was started again
     trace.value()->sample(past_.instance(), *nc_, past_.part());
   }
-  past_.compareOutputs(true);
   if (std::string wrong = trace.value()->finish(); !wrong.empty()) return failure(std::move(wrong));
   std::vector<std::string> lacks = gaps(from, to);
   if (past_.part() < to)

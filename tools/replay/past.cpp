@@ -143,7 +143,10 @@ bool Past::nextSegment() {
   for (uint32_t next = segment_ + 1; next < recording_.segments.size(); ++next) {
     const auto point = std::ranges::find(contents_.states, next, &StatePoint::segment);
     if (point == contents_.states.end()) continue;
-    return begin(*point);
+    const bool follows = next == segment_ + 1 && recording_.segments[segment_].damage.empty();
+    if (!begin(*point)) return false;
+    if (follows) noteDifference();
+    return true;
   }
   problem_.clear();
   return false;
@@ -207,9 +210,12 @@ void Past::noteDifference() {
   differences_.push_back(std::move(difference));
 }
 
+std::string Past::rangeText() const {
+  return fmt::format("the recording has scans {} to {}", firstPart(), contents_.parts);
+}
+
 std::string Past::goTo(uint64_t aim) {
-  if (aim > contents_.parts || aim < firstPart())
-    return fmt::format("the recording has scans {} to {}", firstPart(), contents_.parts);
+  if (aim > contents_.parts || aim < firstPart()) return rangeText();
   const auto afterKept = kept_.upper_bound(aim);
   const Moment* kept = afterKept == kept_.begin() ? nullptr : &std::prev(afterKept)->second;
   // Of several states before the same part the last one is what it begins with; the part before ends with the first.

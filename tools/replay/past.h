@@ -51,6 +51,7 @@ public:
   uint32_t programNumber() const { return stageNumber_; } // in Recording::programs
   // The first part that can be reached.
   uint64_t firstPart() const { return contents_.states.front().part; }
+  std::string rangeText() const; // "the recording has scans 0 to 100"
 
   // Goes there. "" or why that is impossible; the position is then undefined until the next call that succeeds.
   std::string goTo(uint64_t part);
@@ -78,7 +79,7 @@ public:
   void attach(nc::Control& control) { control.onReplace(stage().player().instance()); }
   // The messages that the program has sent in the last part that `next` has run.
   std::span<const rung_message> sent() const { return sent_; }
-  // Whether outputs are compared after each part, as they are at first: playing is faster without it.
+  // Whether what the program does is compared with what was recorded, as it is at first: playing is faster without it.
   void compareOutputs(bool compares);
   // Those found so far where it has been played; the first ones.
   const std::vector<Difference>& differences() const { return differences_; }
@@ -127,6 +128,18 @@ private:
   bool comparesOutputs_ = true;
   std::vector<rung_message> sent_;
   runtime::OutsideWatch* watch_ = nullptr;
+};
+
+// What differs is of no interest, as long as this lives.
+class NotCompared {
+public:
+  explicit NotCompared(Past& past) : past_(past) { past_.compareOutputs(false); }
+  ~NotCompared() { past_.compareOutputs(true); }
+  NotCompared(const NotCompared&) = delete;
+  NotCompared& operator=(const NotCompared&) = delete;
+
+private:
+  Past& past_;
 };
 
 // "scan 12, 0.120 s": parts and time as the prompt of `rungc run` counts them.

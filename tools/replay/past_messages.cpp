@@ -45,12 +45,11 @@ std::vector<PastMessage> PastMessages::changes() {
 
 std::string forEachMessage(Past& past, const std::function<void(const PastMessage& change)>& see) {
   if (std::string problem = past.goTo(past.firstPart()); !problem.empty()) return problem;
-  past.compareOutputs(false);
+  const NotCompared notCompared(past);
   PastMessages messages(past);
   do
     for (const PastMessage& change : messages.changes()) see(change);
   while (past.next());
-  past.compareOutputs(true);
   return past.problem();
 }
 

@@ -64,7 +64,7 @@ public:
       : image_(rung::Image::adopt(engine.program(), engine.context())), player_(image_.handle(), owner) {}
   runtime::Instance& instance() override { return player_.running(); }
   const nc::Control* control() const override { return &player_.control(); }
-  void compareOutputs(bool) override {} // of such a recording only states are compared
+  void compareOutputs(bool compares) override { player_.compareStates(compares); } // it has no outputs
   std::vector<uint8_t> state() override { return player_.state(); }
 
 private:

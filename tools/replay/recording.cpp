@@ -197,14 +197,19 @@ Contents::Contents(const Recording& recording, const See& see) {
 
 namespace {
 
+// Something is missing after what has been read so far.
+void missing(Recording& to, std::string what) {
+  if (!to.segments.empty() && to.segments.back().damage.empty()) to.segments.back().damage = std::move(what);
+}
+
 // The blocks of a file, in segments that each begin with a state. The last block may be cut off.
 void readSegment(runtime::SegmentReader& reader, Recording& to) {
   Segment segment;
   runtime::RecordedBlock block;
   while (reader.next(block)) {
-    if (block.afterGap && !segment.events.empty()) {
-      segment.damage = fmt::format("{}: blocks before byte {} are damaged", reader.path(), block.offset);
-      to.segments.push_back(std::exchange(segment, {}));
+    if (block.afterGap) {
+      if (!segment.events.empty()) to.segments.push_back(std::exchange(segment, {}));
+      missing(to, fmt::format("{}: blocks before byte {} are damaged", reader.path(), block.offset));
     }
     segment.events.insert(segment.events.end(), block.events.begin(), block.events.end());
   }
@@ -212,6 +217,29 @@ void readSegment(runtime::SegmentReader& reader, Recording& to) {
     segment.damage = fmt::format("{} ends with {} bytes of a block that was cut off", reader.path(), reader.rest());
   to.segments.push_back(std::move(segment));
   to.problems.insert(to.problems.end(), reader.problems().begin(), reader.problems().end());
+}
+
+// The files, in the order in which they were written, whatever they are called now.
+std::vector<runtime::SegmentReader> segmentsOf(const runtime::RecordingReader& reader, Recording& to) {
+  std::vector<runtime::SegmentReader> segments;
+  std::string problem;
+  for (const runtime::SegmentFile& file : reader.segments()) {
+    std::optional<runtime::SegmentReader> segment = runtime::SegmentReader::open(reader.pathOf(file), problem);
+    if (segment)
+      segments.push_back(std::move(*segment));
+    else
+      to.problems.push_back(problem);
+  }
+  std::ranges::stable_sort(segments, {}, [](const runtime::SegmentReader& segment) {
+    return std::pair(segment.head().number, segment.head().wallUs);
+  });
+  const auto isSame = [&](const runtime::SegmentReader& a, const runtime::SegmentReader& b) {
+    const bool same = a.head().run == b.head().run && a.head().number == b.head().number;
+    if (same) to.problems.push_back(b.path() + " is a copy of " + a.path());
+    return same;
+  };
+  segments.erase(std::unique(segments.begin(), segments.end(), isSame), segments.end());
+  return segments;
 }
 
 // Whether the recording has this program now.
@@ -247,20 +275,23 @@ Result<Recording> readRecording(const std::string& path, std::vector<std::unique
   const std::optional<runtime::RecordingReader> reader = runtime::RecordingReader::open(path, problem);
   if (!reader) return failure(problem);
   Recording recording;
-  bool first = true;
-  for (const runtime::SegmentFile& file : reader->segments()) {
-    std::optional<runtime::SegmentReader> segment = runtime::SegmentReader::open(reader->pathOf(file), problem);
-    if (!segment) {
-      recording.problems.push_back(problem);
+  std::vector<runtime::SegmentReader> segments = segmentsOf(*reader, recording);
+  const runtime::SegmentHead* last = nullptr; // of those that can be played
+  for (runtime::SegmentReader& segment : segments) {
+    const runtime::SegmentHead& head = segment.head();
+    if (last == nullptr) recording.mode = head.mode;
+    if (head.mode != recording.mode) {
+      recording.problems.push_back(segment.path() + " was recorded in another way than the segments before it");
       continue;
     }
-    if (first) recording.mode = segment->head().mode;
-    first = false;
-    if (segment->head().mode != recording.mode) {
-      recording.problems.push_back(file.name + " was recorded in another way than the segments before it");
-      continue;
-    }
-    if (takeProgram(*reader, segment->head().program, known, recording)) readSegment(*segment, recording);
+    if (!takeProgram(*reader, head.program, known, recording)) continue;
+    if (last != nullptr && last->run == head.run && last->number + 1 != head.number)
+      missing(recording, last->number + 2 == head.number
+                             ? fmt::format("segment {} is missing, or cannot be read", last->number + 1)
+                             : fmt::format("segments {} to {} are missing, or cannot be read", last->number + 1,
+                                           head.number - 1));
+    last = &head;
+    readSegment(segment, recording);
   }
   recording.problems.insert(recording.problems.end(), reader->problems().begin(), reader->problems().end());
   if (recording.programs.empty())

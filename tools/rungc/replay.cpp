@@ -119,12 +119,20 @@ int runAsked(const ReplayOptions& options, replay::Past& past, replay::Console& 
   return status;
 }
 
+// Machine code is there at once where it pays: in a search of many scans.
+replay::PastOptions pastOptions(const ReplayOptions& options, const replay::Recording& recording) {
+  constexpr uint64_t kMany = 20'000;
+  replay::PastOptions past;
+  if (!options.find.empty() && replay::Contents(recording).parts > kMany) past.engine = compiler::EngineKind::Jit;
+  return past;
+}
+
 int runReplay(ReplayOptions& options) {
   if (const std::string wrong = listenProblem(options.listen); !wrong.empty()) return usageError(wrong);
   int status = kOk;
   const std::optional<replay::Recording> recording = openRecording(options, status);
   if (!recording) return status;
-  Result<std::unique_ptr<replay::Past>> past = replay::Past::open(*recording, {});
+  Result<std::unique_ptr<replay::Past>> past = replay::Past::open(*recording, pastOptions(options, *recording));
   if (!past.ok()) return environmentError(fmt::format("{}: {}", options.file, past.error()));
   const uint64_t first = options.at.value_or(past.value()->contents().parts);
   if (const std::string problem = past.value()->goTo(first); !problem.empty()) return usageError("--at: " + problem);

@@ -81,15 +81,15 @@ TEST_F(ConsoleTest, WrongWordsAreNamedAndTheMomentStays) {
       {"rung 1 2", "expected a number (the command is: rung [N])"},
       {"find", "expected a condition such as X8.4 or D100 > 500 (the command is: find CONDITION)"},
       {"find NOWHERE", "'NOWHERE'"},
-      {"find START =", "expected a name or a number at the end"},
-      {"find (START", "a bracket is not closed"},
+      {"find STL =", "expected a name or a number at the end"},
+      {"find (STL", "a bracket is not closed"},
       {"why", "expected a name (the command is: why NAME [@ SCAN])"},
       {"why NOWHERE", "'NOWHERE'"},
-      {"why START @ 999999", "the recording has scans 0 to "},
-      {"why START @ soon", "'START @ soon'"},
+      {"why STL @ 999999", "the recording has scans 0 to "},
+      {"why STL @ soon", "'STL @ soon'"},
       {"writes", "expected a name (the command is: writes NAME)"},
       {"writes NOWHERE", "'NOWHERE'"},
-      {"writes START START", "expected a name (the command is: writes NAME)"},
+      {"writes STL STL", "expected a name (the command is: writes NAME)"},
       {"marks all", "expected no more words (the command is: marks)"},
       {"messages all", "expected no more words (the command is: messages)"},
       {"faults all", "expected no more words (the command is: faults)"},
@@ -101,10 +101,10 @@ TEST_F(ConsoleTest, WrongWordsAreNamedAndTheMomentStays) {
       {"export a.vcd 5 5", "the first scan, 5, is not before the last one, 5"},
       {"export a.vcd 0 999999", "the recording has scans 0 to "},
       {"export a.csv NOWHERE", "'NOWHERE'"},
-      {"export a.scn START", "a scenario has what others wrote, and no list of names"},
+      {"export a.scn STL", "a scenario has what others wrote, and no list of names"},
       {"export a.scn 5 9", "a scenario begins with the start of the program, and not after scan 5"},
       {"export /nowhere/a.scn 0 9", "cannot write '/nowhere/a.scn'"},
-      {"export /nowhere/a.csv 0 9 START", "cannot write '/nowhere/a.csv'"},
+      {"export /nowhere/a.csv 0 9 STL", "cannot write '/nowhere/a.csv'"},
   };
   for (const Wrong& wrong : kCases) EXPECT_THAT(fails(wrong.line), HasSubstr(wrong.problem)) << wrong.line;
   EXPECT_EQ(say(""), "");
@@ -133,7 +133,7 @@ TEST_F(ConsoleTest, MovesByScansTasksAndRungs) {
 
 TEST_F(ConsoleTest, LooksWithoutMoving) {
   say("scan 30");
-  for (const char* line : {"show START", "rung", "rung 1", "why START", "writes START", "marks", "messages", "faults",
+  for (const char* line : {"show STL", "rung", "rung 1", "why STL", "writes STL", "marks", "messages", "faults",
                            "compare", "help"}) {
     EXPECT_NE(say(line), "") << line;
     EXPECT_EQ(past_->part(), 30u) << line;
@@ -144,12 +144,12 @@ TEST_F(ConsoleTest, LooksWithoutMoving) {
 
 TEST_F(ConsoleTest, FindsFromHereOn) {
   say("scan 0");
-  say("find rises START");
+  say("find rises STL");
   const uint64_t first = past_->part();
   EXPECT_GT(first, 0u);
-  EXPECT_THAT(say("show START"), StartsWith("START = 1"));
+  EXPECT_THAT(say("show STL"), StartsWith("STL = 1"));
   say("back");
-  EXPECT_THAT(say("show START"), StartsWith("START = 0"));
+  EXPECT_THAT(say("show STL"), StartsWith("STL = 0"));
   say("find"); // the same condition
   EXPECT_EQ(past_->part(), first);
   say(fmt::format("scan {}", past_->contents().parts));
@@ -164,10 +164,10 @@ std::string contentsOf(const std::string& file) {
 TEST_F(ConsoleTest, ExportsValuesOfScans) {
   const TemporaryFolder folder;
   say("scan 5");
-  EXPECT_THAT(say("export " + (folder / "a.csv").string() + " 10 12 START"), StartsWith("wrote "));
+  EXPECT_THAT(say("export " + (folder / "a.csv").string() + " 10 12 STL"), StartsWith("wrote "));
   EXPECT_EQ(past_->part(), 5u);
   const std::string text = contentsOf(folder / "a.csv");
-  EXPECT_THAT(text, StartsWith("time_s,scan,START\n"));
+  EXPECT_THAT(text, StartsWith("time_s,scan,STL\n"));
   EXPECT_EQ(std::ranges::count(text, '\n'), 4) << text; // the head, the state after scan 10, and two scans
 }
 
@@ -184,7 +184,7 @@ TEST_F(ConsoleTest, GapsAreNamed) {
   EXPECT_THAT(said_, HasSubstr("; the recording has more\n" + gap));
   const TemporaryFolder folder;
   said_.clear();
-  EXPECT_EQ(console.execute("export " + (folder / "a.csv").string() + " START"), Outcome::Failed);
+  EXPECT_EQ(console.execute("export " + (folder / "a.csv").string() + " STL"), Outcome::Failed);
   EXPECT_THAT(said_, HasSubstr(gap));
   said_.clear();
   EXPECT_EQ(console.execute("export " + (folder / "a.scn").string()), Outcome::Failed);
@@ -193,7 +193,7 @@ TEST_F(ConsoleTest, GapsAreNamed) {
 
 TEST_F(ConsoleTest, CompletesCommandsAndNames) {
   EXPECT_THAT(console_->completions("sc"), testing::ElementsAre("scan"));
-  EXPECT_THAT(console_->completions("show STAR"), testing::Contains("START"));
+  EXPECT_THAT(console_->completions("show LIGH"), testing::Contains("LIGHT"));
   EXPECT_THAT(console_->completions("scan "), testing::IsEmpty());
 }
 

@@ -41,7 +41,7 @@ Result<void> Past::useStage(uint32_t number) {
     Result<std::unique_ptr<Stage>> made = Stage::make(*recording_.programs[number], options_.engine, recording_.mode);
     if (!made.ok()) return made.failure();
     stages_[number] = std::move(made).value();
-    stages_[number]->player().compareOutputs(comparesOutputs_);
+    stages_[number]->player().compare(compares_);
   }
   stageNumber_ = number;
   watch(watch_);
@@ -99,7 +99,7 @@ bool Past::resume(const Moment& moment) {
 }
 
 std::optional<Moment> Past::present() {
-  AnyPlayer& player = stage().player();
+  runtime::Player& player = stage().player();
   std::vector<uint8_t> state = player.state();
   if (state.empty()) return std::nullopt;
   const bool again = again_ != 0;
@@ -187,10 +187,10 @@ bool Past::next() {
   }
 }
 
-void Past::compareOutputs(bool compares) {
-  comparesOutputs_ = compares;
+void Past::compare(bool compares) {
+  compares_ = compares;
   for (const std::unique_ptr<Stage>& stage : stages_)
-    if (stage) stage->player().compareOutputs(compares);
+    if (stage) stage->player().compare(compares);
 }
 
 void Past::takeSent() {

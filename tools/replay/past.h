@@ -75,12 +75,12 @@ public:
   void watch(runtime::OutsideWatch* watch);
   // The control that plays, whose messages are those of the present position; null if it does not run again. `attach`
   // makes another one see the program of now, without changing anything.
-  const nc::Control* control() const { return stages_[stageNumber_]->player().control(); }
+  const nc::Control* control() const { return controlOf(stages_[stageNumber_]->player()); }
   void attach(nc::Control& control) { control.onReplace(stage().player().instance()); }
   // The messages that the program has sent in the last part that `next` has run.
   std::span<const rung_message> sent() const { return sent_; }
   // Whether what the program does is compared with what was recorded, as it is at first: playing is faster without it.
-  void compareOutputs(bool compares);
+  void compare(bool compares);
   // Those found so far where it has been played; the first ones.
   const std::vector<Difference>& differences() const { return differences_; }
 
@@ -125,7 +125,7 @@ private:
   std::vector<uint8_t> blockBefore_;
   std::vector<OutsideWrite> outside_;
   std::vector<Difference> differences_;
-  bool comparesOutputs_ = true;
+  bool compares_ = true;
   std::vector<rung_message> sent_;
   runtime::OutsideWatch* watch_ = nullptr;
 };
@@ -133,8 +133,8 @@ private:
 // What differs is of no interest, as long as this lives.
 class NotCompared {
 public:
-  explicit NotCompared(Past& past) : past_(past) { past_.compareOutputs(false); }
-  ~NotCompared() { past_.compareOutputs(true); }
+  explicit NotCompared(Past& past) : past_(past) { past_.compare(false); }
+  ~NotCompared() { past_.compare(true); }
   NotCompared(const NotCompared&) = delete;
   NotCompared& operator=(const NotCompared&) = delete;
 

@@ -630,7 +630,7 @@ std::string kindText(const Reason& reason) {
   case Reason::Kind::Outside: return "written from outside: by the machine, the control or a person";
   case Reason::Kind::Machine: return "an input, written by the machine";
   case Reason::Kind::Client: return "written by a person or another program, through the host";
-  case Reason::Kind::Control: return "written by the control";
+  case Reason::Kind::Control: return "written by the control or the machine";
   case Reason::Kind::Forced: return "forced by a person";
   case Reason::Kind::Start: return "as the program was started, or a state loaded";
   case Reason::Kind::Before:

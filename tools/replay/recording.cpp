@@ -244,12 +244,12 @@ std::vector<runtime::SegmentReader> segmentsOf(const runtime::RecordingReader& r
 
 // Whether the recording has this program now.
 bool takeProgram(const runtime::RecordingReader& reader, uint64_t hash,
-                 std::vector<std::unique_ptr<compiler::Compiled>>& known, Recording& to) {
+                 const std::vector<std::shared_ptr<const compiler::Compiled>>& known, Recording& to) {
   for (const auto& program : to.programs)
     if (program->codeHash == hash) return true;
-  for (auto& program : known)
-    if (program && program->codeHash == hash) {
-      to.programs.push_back(std::move(program));
+  for (const auto& program : known)
+    if (program->codeHash == hash) {
+      to.programs.push_back(program);
       return true;
     }
   std::string problem;
@@ -264,13 +264,13 @@ bool takeProgram(const runtime::RecordingReader& reader, uint64_t hash,
     to.problems.push_back(fmt::format("the program {}: {}", runtime::programName(hash), program.error()));
     return false;
   }
-  to.programs.push_back(std::make_unique<compiler::Compiled>(std::move(program).value()));
+  to.programs.push_back(std::make_shared<compiler::Compiled>(std::move(program).value()));
   return true;
 }
 
 } // namespace
 
-Result<Recording> readRecording(const std::string& path, std::vector<std::unique_ptr<compiler::Compiled>> known) {
+Result<Recording> readRecording(const std::string& path, std::vector<std::shared_ptr<const compiler::Compiled>> known) {
   std::string problem;
   const std::optional<runtime::RecordingReader> reader = runtime::RecordingReader::open(path, problem);
   if (!reader) return failure(problem);

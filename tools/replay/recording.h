@@ -24,7 +24,7 @@ struct Segment {
 struct Recording {
   std::vector<Segment> segments;
   // Compiled with marks and their modules as built (CompileRequest::marks, keepBuilt); the first one first.
-  std::vector<std::unique_ptr<compiler::Compiled>> programs;
+  std::vector<std::shared_ptr<const compiler::Compiled>> programs;
   runtime::RecordingMode mode = runtime::RecordingMode::Bytes;
   std::vector<std::string> problems; // what of its files could not be read
 };
@@ -86,6 +86,6 @@ struct Contents {
 
 // Reads the files of a recording: a folder, or one segment (docs/recording.md). `known`: programs that it may be of, in
 // addition to those that it has. Fails if there is nothing to read, or no program for any of it.
-Result<Recording> readRecording(const std::string& path, std::vector<std::unique_ptr<compiler::Compiled>> known = {});
+Result<Recording> readRecording(const std::string& path, std::vector<std::shared_ptr<const compiler::Compiled>> known = {});
 
 } // namespace rung::replay

@@ -15,6 +15,7 @@
 #include "rtlib/load/program_info.h"
 #include "rtlib/nc/control/control.h"
 #include "sim/simulated_nc.h"
+#include "tools/report/cross_reference.h"
 #include "tools/report/place_names.h"
 #include "tools/scenario/words.h"
 
@@ -60,12 +61,32 @@ private:
   std::map<std::tuple<uint32_t, uint32_t, uint32_t>, Named> named_;
 };
 
+// What the program gives to the machine and the control: a scenario expects it, whenever it has changed.
+struct Output {
+  std::string name;
+  Ref place;
+  std::optional<uint64_t> expected;
+};
+std::vector<Output> outputsOf(const rung_program& program, const ir::Uses& uses) {
+  std::vector<Output> outputs, written;
+  for (const report::UsedPlace& used : report::usedPlaces(program, uses)) {
+    const Ref place = report::refOf(used.use);
+    if (!used.written || (place.kind != RefKind::Bit && place.kind != RefKind::Int)) continue;
+    if ((program.spaces[place.space].flags & RUNG_SPACE_HIDDEN) != 0) continue;
+    std::string name = report::writtenName(program, place);
+    if (name.empty()) continue;
+    (report::isReadByControl(program, uses, place) ? outputs : written).push_back({std::move(name), place, {}});
+  }
+  return outputs.empty() ? written : outputs;
+}
+
 // Writes statements as the program is played. Sees the memory at the beginning of each part, when others have written.
 class Inputs final : public runtime::OutsideWatch {
 public:
   Inputs(const Past& past, ScenarioText& to)
       : uses_(*past.compiled().uses), nc_(sim::makeSimulatedNc(past.instance().program().dialect)),
-        names_(past.instance().program()), to_(to) {}
+        names_(past.instance().program()), program_(past.instance().program()), to_(to),
+        outputs_(outputsOf(program_, uses_)) {}
 
   void know(const runtime::Instance& instance) { known_.assign(instance.block().begin(), instance.block().end()); }
   void begins(const runtime::Instance& instance, PartKind kind, uint32_t) noexcept override {
@@ -86,6 +107,7 @@ public:
 
   // A part has run: counted, until something else is to be written. Slices are parts of a scan or slots.
   void count(const runtime::Instance& instance) {
+    faulted_ = instance.faulted();
     switch (kind_) {
     case PartKind::Scan: return add("scan");
     case PartKind::Slot: return add("slot");
@@ -101,11 +123,14 @@ public:
     }
   }
   void flush() {
-    if (count_ != 0) rung::put(to_.text, "{} {}\n", word_, count_);
+    if (count_ == 0) return;
+    rung::put(to_.text, "{} {}\n", word_, count_);
     count_ = 0;
+    if (!faulted_) expect(false);
   }
   void finish() {
     flush();
+    if (!faulted_) expect(true);
     const auto lacks = [&](uint64_t count, std::string_view what) {
       if (count != 0) to_.lacks.push_back(fmt::format("{}: {}", what, count));
     };
@@ -115,6 +140,16 @@ public:
   }
 
 private:
+  // Outputs that have changed since the last time, or all.
+  void expect(bool all) {
+    const core::Memory memory(program_, known_.data());
+    for (Output& output : outputs_) {
+      const uint64_t now = runtime::readRaw(memory, output.place);
+      if (!all && output.expected.value_or(0) == now) continue;
+      output.expected = now;
+      rung::put(to_.text, "expect {} {}\n", scenario::asWord(output.name), now);
+    }
+  }
   void add(std::string_view word) {
     if (word != word_) flush();
     word_ = word;
@@ -191,14 +226,17 @@ private:
   const ir::Uses& uses_;
   std::unique_ptr<sim::SimulatedNc> nc_;
   Names names_;
+  const rung_program& program_;
   ScenarioText& to_;
-  std::vector<uint8_t> known_;
+  std::vector<Output> outputs_;
+  std::vector<uint8_t> known_; // the memory after the last part
   std::map<std::string, bool> forces_; // by the name of the bit
   PartKind kind_ = PartKind::Scan;
   std::string_view word_;
   uint64_t count_ = 0;
   uint32_t depth_ = 0;
   bool withinScan_ = false;
+  bool faulted_ = false;
   std::set<std::pair<uint32_t, uint32_t>> unnamed_;
   uint64_t midScan_ = 0, otherParts_ = 0;
 };
@@ -210,18 +248,6 @@ void putProgram(const Past& past, const std::string& path, std::string& text) {
   for (const std::string& file : past.compiled().shape->files)
     text += " " + scenario::asWord(std::filesystem::absolute(file).lexically_relative(folder).string());
   text += "\n";
-}
-
-// Outputs with a name.
-void putOutputs(const runtime::Instance& instance, std::string& text) {
-  const rung_program& program = instance.program();
-  for (const rung_symbol& symbol : std::span(program.symbols, program.symbol_count)) {
-    const Ref place = runtime::refOf(symbol);
-    if (place.kind != RefKind::Bit || (symbol.flags & RUNG_SYMBOL_HIDDEN) != 0) continue;
-    if ((program.spaces[place.space].flags & RUNG_SPACE_OUTPUT) == 0) continue;
-    if ((program.spaces[place.space].flags & RUNG_SPACE_INPUT) != 0) continue;
-    rung::put(text, "expect {} {}\n", scenario::asWord(symbol.name), instance.read(place));
-  }
 }
 
 // "" or why these parts are no scenario.
@@ -313,8 +339,6 @@ Result<ScenarioText> scenarioOf(Past& past, const std::string& path, uint64_t fr
     return failure(past.problem().empty() ? "the recording ends before that" : past.problem());
   if (past.instance().faulted())
     rung::put(scenario.text, "# the program stops with a fault: {}\n", past.instance().faultText());
-  else
-    putOutputs(past.instance(), scenario.text);
   return scenario;
 }
 

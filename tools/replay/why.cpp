@@ -68,8 +68,8 @@ public:
     Explanation explanation;
     explanation.reason = reasonOf(cell, here, {});
     addSkipped(cell, here, explanation);
+    addChange(cell, here, explanation);
     (void)past_.goTo(here);
-    explanation.toChange = std::move(toChange_);
     return explanation;
   }
 
@@ -295,15 +295,33 @@ private:
     if (write) return wrote(cell, value, part, facts, *write);
     if (!fromBefore) return outside(cell, value, part, facts);
     const std::optional<uint64_t> change = lastChanges({cell}, part - 1)[0];
-    if (!change) {
-      (void)past_.goTo(past_.firstPart());
-      Reason reason = plain(cell, value, Reason::Kind::Before, past_.part(), past_.instance().nowUs());
-      reason.note = heldSince(cell, past_.part(), part);
-      return reason;
-    }
+    if (!change) return unchanged(cell, value, part, moment);
     Reason reason = changedIn(cell, value, *change);
     if (reason.kind != Reason::Kind::Forced && reason.note.empty()) reason.note = heldSince(cell, *change, part);
     return reason;
+  }
+
+  // It has the value since the recording began: what writes it again and again says why, if anything does.
+  Reason unchanged(const Cell& cell, uint64_t value, uint64_t part, const Within& moment) {
+    const PartFacts& facts = factsOf(part);
+    const std::optional<Within> again = lastWriteIn(facts, cell, moment);
+    Reason reason = again ? wrote(cell, value, part, facts, *again) : plain(cell, value, Reason::Kind::Before, part, 0);
+    reason.unchanged = true;
+    reason.part = past_.firstPart();
+    reason.us = timeOf(reason.part);
+    if (reason.note.empty()) reason.note = heldSince(cell, reason.part, part);
+    return reason;
+  }
+  // The last one before the moment, also of the value that it had.
+  static std::optional<Within> lastWriteIn(const PartFacts& facts, const Cell& cell, const Within& moment) {
+    std::optional<Within> last;
+    if (!facts.flow) return last;
+    for (size_t r = 0; r < facts.flow->runs().size() && r <= moment.run; ++r) {
+      const std::span<const Access> accesses = facts.flow->accesses(facts.flow->runs()[r]);
+      for (size_t a = 0; a < accesses.size() && (r < moment.run || a < moment.access); ++a)
+        if (accesses[a].writes && touches(accesses[a], cell)) last = Within{r, a};
+    }
+    return last;
   }
 
   // The cell got the value in this part, and had it at its end.
@@ -442,18 +460,26 @@ private:
     if (run.faulted || facts.values[write.run].empty()) return reason;
     const RungReasons reasons(rung, facts.values[write.run]);
     const std::vector<Leaf> leaves = reasons.of(access.operation);
-    if (count_ == 1 && cell.bits.count == 1 && !cell.slot.valid())
-      noteChange(reasons, access.operation, rung, facts, run);
     follow(reason, leaves, part, facts, write.run);
     return reason;
   }
 
-  void noteChange(const RungReasons& reasons, uint32_t store, const ir::Rung& rung, const PartFacts& facts,
-                  const RungFlow& run) {
-    for (const Leaf& leaf : reasons.toChange(store)) {
-      const auto [cell, value] = cellOf(leaf, rung, facts, run);
-      toChange_.push_back(cell ? fmt::format("{} = {}", nameOf(*cell), value == 0 ? 1 : 0)
-                               : fmt::format("the result of line {}", ir::lineOf(rung, rung.ops[leaf.operation])));
+  // Of the rung that wrote the bit last in the part of the question; if none did, of the one that gave it the value.
+  void addChange(const Cell& cell, uint64_t part, Explanation& explanation) {
+    if (cell.bits.count != 1 || explanation.reason.kind != Reason::Kind::Rung) return;
+    std::optional<Within> write = lastWriteIn(factsOf(part), cell, {});
+    if (!write && part != explanation.reason.part)
+      write = lastWriteIn(factsOf(part = explanation.reason.part), cell, {});
+    const PartFacts& facts = factsOf(part);
+    if (!write || facts.values[write->run].empty()) return;
+    const RungFlow& run = facts.flow->runs()[write->run];
+    const ir::Rung& rung = past_.flowEngine().rung(run.lowered);
+    const RungReasons reasons(rung, facts.values[write->run]);
+    for (const Leaf& leaf : reasons.toChange(facts.flow->accesses(run)[write->access].operation)) {
+      const auto [read, value] = cellOf(leaf, rung, facts, run);
+      explanation.toChange.push_back(
+          read ? fmt::format("{} = {}", nameOf(*read), value == 0 ? 1 : 0)
+               : fmt::format("the result of line {}", ir::lineOf(rung, rung.ops[leaf.operation])));
     }
   }
 
@@ -609,14 +635,13 @@ private:
   const uint64_t asked_;         // the part of the question
   std::map<uint64_t, std::unique_ptr<PartFacts>> facts_;
   std::vector<std::pair<Cell, uint64_t>> visited_;
-  std::vector<std::string> toChange_;
   size_t count_ = 0;
 };
 
 // ---- text --------------------------------------------------------------------------------------------------------
 
 std::string sinceText(const Reason& reason) {
-  if (reason.kind == Reason::Kind::Before) return "unchanged since the recording began";
+  if (reason.kind == Reason::Kind::Before || reason.unchanged) return "unchanged since the recording began";
   return "since " + scenario::scanText(reason.part, reason.us);
 }
 
@@ -672,6 +697,7 @@ nlohmann::json jsonOfReason(const Reason& reason) {
                       {"us", reason.us}};
   if (reason.kind == Reason::Kind::Rung)
     json.update({{"rung", reason.rung}, {"file", reason.file}, {"line", reason.line}});
+  if (reason.unchanged) json["unchanged"] = true;
   if (reason.alone) json["alone"] = true;
   if (reason.isIndex) json["index"] = true;
   if (reason.computed) json["computed"] = true;

@@ -41,6 +41,7 @@ struct Reason {
   bool alone = false;       // in the rung above: it decided alone
   bool isIndex = false;     // in the rung above: it determined the address
   bool computed = false;    // written at a computed address
+  bool unchanged = false;   // of a Rung: it has the value since the recording began, and is written again and again
   std::string note;         // such as the statement of a scenario that set it
   // What decided; the one that changed last comes first, and the chain continues with it.
   std::vector<Reason> because;
@@ -48,7 +49,7 @@ struct Reason {
 
 struct Explanation {
   Reason reason;
-  // For a bit: what would have to be different in the rung that wrote it last. Empty: unknown.
+  // For a bit: what would have to be different for the rung that wrote it last. Empty: unknown.
   std::vector<std::string> toChange;
   // Rungs that write the place and did not run in the part, and which rung jumped over each.
   std::vector<std::string> skipped;

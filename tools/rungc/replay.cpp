@@ -63,14 +63,14 @@ std::optional<replay::Recording> recordingOf(const std::string& file, int& statu
 
 std::optional<replay::Recording> openRecording(ReplayOptions& options, int& status) {
   if (options.file.ends_with(".scn")) return recordingOf(options.file, status);
-  std::vector<std::unique_ptr<compiler::Compiled>> known;
+  std::vector<std::shared_ptr<const compiler::Compiled>> known;
   SourceManager sources;
   if (!options.source.files.empty()) {
     compiler::CompileRequest request;
     request.marks = request.keepBuilt = true;
     std::optional<compiler::Compiled> compiled = compileSources(sources, options.source, std::move(request), status);
     if (!compiled) return std::nullopt;
-    known.push_back(std::make_unique<compiler::Compiled>(std::move(*compiled)));
+    known.push_back(std::make_shared<compiler::Compiled>(std::move(*compiled)));
   }
   Result<replay::Recording> recording = replay::readRecording(options.file, std::move(known));
   if (!recording.ok()) {

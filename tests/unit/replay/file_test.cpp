@@ -234,9 +234,7 @@ TEST(ScenarioFile, DoesTheSame) {
 TEST(HostRecording, IsPlayedWithItsControlFromAnyPlace) {
   const TemporaryFolder folder;
   RecordedHost host(folder / "recording");
-  std::vector<std::unique_ptr<compiler::Compiled>> known;
-  known.push_back(std::move(host.program.compiled));
-  const Result<Recording> recording = readRecording(folder / "recording", std::move(known));
+  const Result<Recording> recording = readRecording(folder / "recording", {host.program.compiled});
   ASSERT_TRUE(recording.ok()) << recording.error();
   ASSERT_EQ(recording.value().mode, runtime::RecordingMode::Control);
   Result<std::unique_ptr<Past>> opened =

@@ -16,19 +16,28 @@ namespace rung::replay {
 
 // A compiled program, with marks.
 struct HostProgram {
-  explicit HostProgram(const char* text) {
+  // A text is that of a file "t.pmc".
+  explicit HostProgram(const char* text) { compile({sources.addBuffer("t.pmc", text)}); }
+  static HostProgram ofFile(const char* file) {
+    HostProgram program;
+    program.compile(std::move(compiler::addFiles(program.sources, {file}, {})).value());
+    return program;
+  }
+  SourceManager sources;
+  std::shared_ptr<const compiler::Compiled> compiled;
+  std::unique_ptr<runtime::Engine> engine;
+
+private:
+  HostProgram() = default;
+  void compile(const std::vector<FileId>& files) {
     Diagnostics diagnostics;
-    const FileId files[] = {sources.addBuffer("t.pmc", text)};
     compiler::CompileRequest request;
     request.marks = request.keepBuilt = true;
     auto result = compiler::compile(sources, files, request, diagnostics);
     EXPECT_TRUE(result) << renderText(diagnostics, sources);
-    compiled = std::make_unique<compiler::Compiled>(std::move(*result));
+    compiled = std::make_shared<compiler::Compiled>(std::move(*result));
     engine = std::move(compiler::makeEngine(compiler::EngineKind::Interp, *compiled, {})).value();
   }
-  SourceManager sources;
-  std::unique_ptr<compiler::Compiled> compiled;
-  std::unique_ptr<runtime::Engine> engine;
 };
 
 // Runs it in the control of GSK, with GO on for every second hundred scans, and records into the folder.

@@ -54,9 +54,7 @@ runtime::LoadResult HostPlayer::load(core::Loader& loader) {
   return runtime::LoadResult::Loaded;
 }
 
-size_t HostPlayer::roomForOthers() const {
-  return inputs_->listed() + inputs_->listedKnown() + roomFor(configured_);
-}
+size_t HostPlayer::roomForOthers() const { return inputs_->listed() + inputs_->listedKnown() + roomFor(configured_); }
 
 // As HostRecorder writes it. Inputs follow the state, because they may be others than those that the block has now.
 void HostPlayer::putBeforeState(EventWriter& writer) const {

@@ -83,7 +83,7 @@ bool HostRecorder::putWhole(EventWriter& writer) noexcept {
 }
 
 void HostRecorder::putState() noexcept {
-  if (inputs_ == nullptr) return;             // the replacement was prepared before the recording
+  if (inputs_ == nullptr) return; // the replacement was prepared before the recording
   const size_t reserved = stateBytes_;
   bool isPut = putStateInto(reserved);
   if (!isPut && stateBytes_ > reserved) isPut = putStateInto(stateBytes_); // it has grown

@@ -1,6 +1,6 @@
 // The recorder: writes down what others do to a program while it runs, from which everything that the program did can
-// be computed again, by any engine, on any machine (bytes_player.h). Of what the program does it writes down only when its
-// outputs have changed, and a hash of them, so that a difference is found.
+// be computed again, by any engine, on any machine (bytes_player.h). Of what the program does it writes down only when
+// its outputs have changed, and a hash of them, so that a difference is found.
 //
 // It belongs to the scan thread, allocates nothing after its construction, and never waits: what finds no room in the
 // ring is left out, which the recording says, and the next whole state begins it anew.

@@ -427,8 +427,7 @@ Outcome Console::compare(Words) {
 Result<std::vector<std::string>> Console::exportTo(const std::string& path, uint64_t from, uint64_t to,
                                                    std::vector<std::string> names) {
   if (from >= to) return failure(fmt::format("the first scan, {}, is not before the last one, {}", from, to));
-  if (to > past_.contents().parts || from < past_.firstPart())
-    return failure(past_.rangeText());
+  if (to > past_.contents().parts || from < past_.firstPart()) return failure(past_.rangeText());
   runs_.reset();
   if (!path.ends_with(".scn")) return exportTrace(path, from, to, std::move(names));
   if (!names.empty()) return failure("a scenario has what others wrote, and no list of names");

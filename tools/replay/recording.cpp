@@ -56,8 +56,14 @@ bool skipEvent(EventReader& reader, Event event) {
   case Event::Input:
   case Event::Bytes: skipNumbers(reader, 1); return skipBytes(reader);
   case Event::Reply:
-  case Event::Answer: skipNumbers(reader, 2); skipNumbers(reader, reader.takeNumber()); return true;
-  case Event::Request: skipNumbers(reader, 1); skipNumbers(reader, reader.takeNumber()); return true;
+  case Event::Answer:
+    skipNumbers(reader, 2);
+    skipNumbers(reader, reader.takeNumber());
+    return true;
+  case Event::Request:
+    skipNumbers(reader, 1);
+    skipNumbers(reader, reader.takeNumber());
+    return true;
   case Event::Fault: skipNumbers(reader, 4); return true;
   case Event::Mark: return skipBytes(reader);
   case Event::Ended:
@@ -133,8 +139,8 @@ private:
     const auto same = [](const core::ForcedBits& a, const core::ForcedBits& b) {
       return a.offset == b.offset && a.mask == b.mask && a.value == b.value;
     };
-    const bool known = to_.forces.empty() ? change.bits.empty()
-                                          : std::ranges::equal(to_.forces.back().bits, change.bits, same);
+    const bool known =
+        to_.forces.empty() ? change.bits.empty() : std::ranges::equal(to_.forces.back().bits, change.bits, same);
     if (!known && reader_.good()) to_.forces.push_back(std::move(change));
     return true;
   }
@@ -286,10 +292,10 @@ Result<Recording> readRecording(const std::string& path, std::vector<std::shared
     }
     if (!takeProgram(*reader, head.program, known, recording)) continue;
     if (last != nullptr && last->run == head.run && last->number + 1 != head.number)
-      missing(recording, last->number + 2 == head.number
-                             ? fmt::format("segment {} is missing, or cannot be read", last->number + 1)
-                             : fmt::format("segments {} to {} are missing, or cannot be read", last->number + 1,
-                                           head.number - 1));
+      missing(recording,
+              last->number + 2 == head.number
+                  ? fmt::format("segment {} is missing, or cannot be read", last->number + 1)
+                  : fmt::format("segments {} to {} are missing, or cannot be read", last->number + 1, head.number - 1));
     last = &head;
     readSegment(segment, recording);
   }

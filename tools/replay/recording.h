@@ -86,6 +86,7 @@ struct Contents {
 
 // Reads the files of a recording: a folder, or one segment (docs/recording.md). `known`: programs that it may be of, in
 // addition to those that it has. Fails if there is nothing to read, or no program for any of it.
-Result<Recording> readRecording(const std::string& path, std::vector<std::shared_ptr<const compiler::Compiled>> known = {});
+Result<Recording> readRecording(const std::string& path,
+                                std::vector<std::shared_ptr<const compiler::Compiled>> known = {});
 
 } // namespace rung::replay

@@ -14,6 +14,7 @@
 #include "ir/support/put.h"
 #include "rtlib/load/program_info.h"
 #include "rtlib/nc/control/control.h"
+#include "rtlib/nc/names/names.h"
 #include "sim/simulated_nc.h"
 #include "tools/report/cross_reference.h"
 #include "tools/report/place_names.h"
@@ -71,7 +72,8 @@ std::vector<Output> outputsOf(const rung_program& program, const ir::Uses& uses)
   std::vector<Output> outputs, written;
   for (const report::UsedPlace& used : report::usedPlaces(program, uses)) {
     const Ref place = report::refOf(used.use);
-    if (!used.written || (place.kind != RefKind::Bit && place.kind != RefKind::Int)) continue;
+    const bool isReal = place.kind == RefKind::Real || place.width == 64; // reals are moved as 64 bits, too
+    if (!used.written || isReal) continue;
     if ((program.spaces[place.space].flags & RUNG_SPACE_HIDDEN) != 0) continue;
     std::string name = report::writtenName(program, place);
     if (name.empty()) continue;
@@ -134,7 +136,12 @@ public:
     const auto lacks = [&](uint64_t count, std::string_view what) {
       if (count != 0) to_.lacks.push_back(fmt::format("{}: {}", what, count));
     };
-    lacks(unnamed_.size(), "written bits without a name, which cannot be set");
+    if (!unnamed_.empty()) {
+      const auto& [space, bit] = *unnamed_.begin();
+      to_.lacks.push_back(fmt::format("written bits without a name, which cannot be set: {}, such as {}",
+                                      unnamed_.size(),
+                                      nc::describe(program_, runtime::bitRef(space, bit / 8, bit % 8))));
+    }
     lacks(midScan_, "values written within a scan, which are set before the scan after it");
     lacks(otherParts_, "parts that are no scan or slot: of a power-off, single tasks, a stop by the host");
   }
@@ -229,7 +236,7 @@ private:
   const rung_program& program_;
   ScenarioText& to_;
   std::vector<Output> outputs_;
-  std::vector<uint8_t> known_; // the memory after the last part
+  std::vector<uint8_t> known_;         // the memory after the last part
   std::map<std::string, bool> forces_; // by the name of the bit
   PartKind kind_ = PartKind::Scan;
   std::string_view word_;
@@ -319,8 +326,9 @@ Result<ScenarioText> scenarioOf(Past& past, const std::string& path, uint64_t fr
   putProgram(past, path, scenario.text);
   Inputs inputs(past, scenario);
   {
-    FlowEngine& engine = past.flowEngine(); // whose new instance is as after a cold start
-    const runtime::Instance cold(engine.engine());
+    const std::unique_ptr<nc::Control> control = nc::makeControl(past.instance().program().dialect);
+    runtime::Instance cold(past.flowEngine().engine(), control.get());
+    control->powerOn(cold, nc::PowerOn::Cold);
     inputs.know(cold);
     if (beginsInside(past.instance(), cold))
       scenario.lacks.emplace_back("the recording begins with timers, edges and other state without a name that a "
@@ -333,10 +341,9 @@ Result<ScenarioText> scenarioOf(Past& past, const std::string& path, uint64_t fr
   past.watch(nullptr);
   inputs.finish();
   if (past.programNumber() != program)
-    return failure(fmt::format("after scan {0} another program takes over: a scenario ends there (--to {0})",
-                               past.part() - 1));
-  if (past.part() < to)
-    return failure(past.problem().empty() ? "the recording ends before that" : past.problem());
+    return failure(
+        fmt::format("after scan {0} another program takes over: a scenario ends there (--to {0})", past.part() - 1));
+  if (past.part() < to) return failure(past.problem().empty() ? "the recording ends before that" : past.problem());
   if (past.instance().faulted())
     rung::put(scenario.text, "# the program stops with a fault: {}\n", past.instance().faultText());
   return scenario;

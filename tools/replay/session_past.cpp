@@ -48,8 +48,7 @@ Result<std::string> SessionPast::why(const std::string& name) {
   if (place->kind == runtime::RefKind::Constant) return fmt::format("{} = {}, a constant", name, value);
   const Result<Recording> recording = this->recording();
   if (!recording.ok()) return recording.failure();
-  const Result<std::unique_ptr<Past>> opened =
-      Past::open(recording.value(), {.engine = compiler::EngineKind::Interp});
+  const Result<std::unique_ptr<Past>> opened = Past::open(recording.value(), {.engine = compiler::EngineKind::Interp});
   if (!opened.ok()) return fmt::format("{} = {}; no scan has run", name, value);
   Past& past = *opened.value();
   if (std::string problem = past.goTo(past.contents().parts); !problem.empty()) return failure(std::move(problem));

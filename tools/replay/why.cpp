@@ -418,18 +418,25 @@ private:
   // What was copied at the beginning of a run is as before its first rung, what is copied at the end as after its last.
   Reason ofSource(const Cell& source, uint64_t part) { return reasonOf(source, part, {}); }
 
-  // The statements of a scenario that set values before the part: that of the cell, otherwise all if they are few.
+  // The statements of a scenario that did something before the part: that of the cell, otherwise all if they are few.
   std::string noteAt(const std::string& name, uint64_t part) const {
     constexpr size_t kFew = 3;
     const std::string symbol = " " + name.substr(0, name.find(' ')) + " ";
-    std::vector<std::string> sets;
+    const auto acts = [](std::string_view text) {
+      constexpr std::string_view kActing[] = {"set ", "block ", "event ", "plc ", "reply "};
+      return std::ranges::any_of(kActing, [&](std::string_view word) {
+        const size_t at = text.find(word);
+        return at == 0 || (at != std::string_view::npos && text[at - 1] == ' ');
+      });
+    };
+    std::vector<std::string> acting;
     for (const Landmark& note : past_.contents().landmarks) {
       if (note.kind != Landmark::Kind::Note || note.part + 1 != part || note.text.find("expect") != std::string::npos)
         continue;
       if (note.text.find(symbol) != std::string::npos) return note.text;
-      if (note.text.find("set ") != std::string::npos) sets.push_back(note.text);
+      if (acts(note.text)) acting.push_back(note.text);
     }
-    return sets.size() > kFew ? std::string() : fmt::format("{}", fmt::join(sets, "; "));
+    return acting.size() > kFew ? std::string() : fmt::format("{}", fmt::join(acting, "; "));
   }
 
   bool visit(const Cell& cell, uint64_t part) {
@@ -468,7 +475,7 @@ private:
   void addChange(const Cell& cell, uint64_t part, Explanation& explanation) {
     if (cell.bits.count != 1 || explanation.reason.kind != Reason::Kind::Rung) return;
     std::optional<Within> write = lastWriteIn(factsOf(part), cell, {});
-    if (!write && part != explanation.reason.part)
+    if (!write && explanation.skipped.empty() && part != explanation.reason.part)
       write = lastWriteIn(factsOf(part = explanation.reason.part), cell, {});
     const PartFacts& facts = factsOf(part);
     if (!write || facts.values[write->run].empty()) return;
@@ -553,9 +560,11 @@ private:
     add(operands, leaves, facts, runNumber);
     if (!operands.hasNames()) addDecider(operands, facts, runNumber);
     findSince(operands.all, part, facts);
-    // The one that changed last is the cause of the change; the chain continues there.
+    // Of those that have changed, what has a name comes first, and of these the one that changed last: it is the cause
+    // of the change, and the chain continues there.
     std::ranges::stable_sort(operands.all, [](const Operand& a, const Operand& b) {
-      return std::tuple(a.rank, a.since, a.leaf.alone) > std::tuple(b.rank, b.since, b.leaf.alone);
+      return std::tuple(a.since.has_value(), a.rank, a.since, a.leaf.alone) >
+             std::tuple(b.since.has_value(), b.rank, b.since, b.leaf.alone);
     });
     for (const Operand& operand : operands.all) {
       const uint64_t since = operand.since.value_or(past_.firstPart());
@@ -619,7 +628,7 @@ private:
     };
     for (const uint32_t writer : uses().writersOf(cell.bits).certain) {
       if (ran(writer)) continue;
-      std::string text = fmt::format("{} did not run in this part", runtime::rungText(program(), writer));
+      std::string text = fmt::format("{} did not run in this scan", runtime::rungText(program(), writer));
       for (const uint32_t decider : uses().decidersOf(writer))
         if (ran(decider)) {
           text += fmt::format("; {} jumped over it", runtime::rungText(program(), decider));
@@ -686,8 +695,8 @@ void put(const Reason& reason, std::string& text) {
   }
 }
 
-constexpr std::string_view kKindNames[] = {"rung",   "copy",  "outside", "machine", "client", "control",
-                                           "forced", "start", "before",  "clock",   "answer", "kept"}; // by Reason::Kind
+constexpr std::string_view kKindNames[] = {"rung",  "copy",   "outside", "machine", "client", "control", "forced",
+                                           "start", "before", "clock",   "answer",  "kept"}; // by Reason::Kind
 
 nlohmann::json jsonOfReason(const Reason& reason) {
   nlohmann::json json{{"kind", kKindNames[static_cast<size_t>(reason.kind)]},

@@ -238,8 +238,9 @@ private:
   // Executes inputs, then the scenario, then --scans and --for, then the prompt.
   int drive() {
     catchSignals();
-    scenario::Console console(session_, watch_, recording_, *explainer_,
-                              [this](const std::string& name) { return past_->why(name); }, print_);
+    scenario::Console console(
+        session_, watch_, recording_, *explainer_, [this](const std::string& name) { return past_->why(name); },
+        print_);
     if (const int status = setInputs(); status != kOk) return status;
     int status = runScenario(console);
     if (options_.web) return status == kOk ? showPage() : status;

@@ -1,5 +1,5 @@
-// Explains the value of a name in an expectation that failed: the rungs that write it, what decides whether they run, and every name that they read
-// with its value and the scan of its last change.
+// Explains the value of a name in an expectation that failed: the rungs that write it, what decides whether they run,
+// and every name that they read with its value and the scan of its last change.
 #pragma once
 #include <optional>
 #include <string>

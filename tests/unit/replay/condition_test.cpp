@@ -36,7 +36,8 @@ protected:
   }
 
   testing::CompiledProgram program_;
-  std::map<std::string, runtime::Ref, std::less<>> constants_ = {{"TITLE", {.width = 8, .kind = runtime::RefKind::Text}}};
+  std::map<std::string, runtime::Ref, std::less<>> constants_ = {
+      {"TITLE", {.width = 8, .kind = runtime::RefKind::Text}}};
   std::vector<uint8_t> block_;
 };
 
@@ -62,8 +63,8 @@ TEST_F(Conditions, CompareWholeValues) {
   for (const char* text : {"D10 != 261", "261 != D10", "D10 != D100:2", "GO != 3", "D100:2 = 261", "D20 = 255",
                            "D20 = -1", "D20 = D200:2", "D10 = 5.0"})
     EXPECT_TRUE(holds(text)) << text;
-  for (const char* text : {"D10 = 261", "261 = D10", "D10 = D100:2", "D100:2 = D10", "GO = 3", "GO = 257",
-                           "D20 = 65535", "D10 = 5.5"})
+  for (const char* text :
+       {"D10 = 261", "261 = D10", "D10 = D100:2", "D100:2 = D10", "GO = 3", "GO = 257", "D20 = 65535", "D10 = 5.5"})
     EXPECT_FALSE(holds(text)) << text;
 }
 

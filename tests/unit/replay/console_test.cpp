@@ -133,8 +133,8 @@ TEST_F(ConsoleTest, MovesByScansTasksAndRungs) {
 
 TEST_F(ConsoleTest, LooksWithoutMoving) {
   say("scan 30");
-  for (const char* line : {"show STL", "rung", "rung 1", "why STL", "writes STL", "marks", "messages", "faults",
-                           "compare", "help"}) {
+  for (const char* line :
+       {"show STL", "rung", "rung 1", "why STL", "writes STL", "marks", "messages", "faults", "compare", "help"}) {
     EXPECT_NE(say(line), "") << line;
     EXPECT_EQ(past_->part(), 30u) << line;
   }

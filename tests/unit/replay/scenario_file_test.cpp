@@ -62,7 +62,7 @@ TEST_P(Exports, PassWithTheSameProgram) {
 
 INSTANTIATE_TEST_SUITE_P(Machines, Exports,
                          testing::Values("examples/fanuc-vmc/door.scn", "examples/gsk-mill/tool-change.scn",
-                                         "examples/gsk-mill/window.scn", "examples/nct-turning-centre/turret.scn",
+                                         "examples/nct-turning-centre/turret.scn",
                                          "examples/nct-turning-centre/nc-program.scn",
                                          "examples/technol-machining-centre/door.scn",
                                          "examples/technol-machining-centre/part-program.scn"));
@@ -100,6 +100,7 @@ TEST_P(Faults, AreThoseOfTheHost) {
   ASSERT_EQ(past->goTo(past->contents().parts), "");
   ASSERT_TRUE(past->instance().faulted());
   fault = past->instance().faultText();
+  fault.resize(fault.find(" (")); // the scenario names the file from its folder
   const std::string path = folder / "fault.scn";
   const Result<ScenarioText> text = scenarioOf(*past, path, past->firstPart(), past->contents().parts);
   ASSERT_TRUE(text.ok()) << text.error();
@@ -108,7 +109,7 @@ TEST_P(Faults, AreThoseOfTheHost) {
   EXPECT_FALSE(result.passed);
   EXPECT_THAT(problemsOf(result), HasSubstr(fault)) << text.value().text;
   // The other way round: with the fault expected it passes.
-  EXPECT_TRUE(runText(path, text.value().text + "expect_fault \"" + fault.substr(0, fault.find('"')) + "\"\n").passed);
+  EXPECT_TRUE(runText(path, text.value().text + "expect_fault \"" + fault + "\"\n").passed);
 }
 
 INSTANTIATE_TEST_SUITE_P(Dialects, Faults,
@@ -123,7 +124,6 @@ INSTANTIATE_TEST_SUITE_P(Dialects, Faults,
 class Panel : public testing::Test {
 protected:
   void record(const std::string& statements) {
-    const std::string text = "program panel.scn\n";
     scenario::Scenario scenario = scenario::parse("examples/gsk-panel/x.scn", "program panel.lad\n" + statements);
     recorded_ = std::move(recordScenario(scenario, {.engines = {compiler::EngineKind::Interp}})).value();
     past_ = open(recorded_.recording);
@@ -139,9 +139,9 @@ TEST_F(Panel, ForcesAreStatements) {
   record("scan 2\nforce X_ESP 1\nscan 3\nset X_ESP 0\nscan 2\nunforce X_ESP\nscan 2\nexpect *ESP 1\n");
   const Result<ScenarioText> text = exported(0, past_->contents().parts);
   ASSERT_TRUE(text.ok()) << text.error();
-  EXPECT_THAT(text.value().text, HasSubstr("\nforce X_ESP 1\n"));
-  EXPECT_THAT(text.value().text, HasSubstr("\nunforce X_ESP\n"));
-  EXPECT_THAT(text.value().text, Not(HasSubstr("set X_ESP")));
+  EXPECT_THAT(text.value().text, HasSubstr("\nforce X8.4 1\n"));
+  EXPECT_THAT(text.value().text, HasSubstr("\nunforce X8.4\n"));
+  EXPECT_THAT(text.value().text, Not(HasSubstr("set X8.4")));
   EXPECT_TRUE(runText("examples/gsk-panel/exported.scn", text.value().text).passed) << text.value().text;
 }
 

@@ -116,7 +116,9 @@ bool HostPlayer::configure(const Configured& what) {
 
 // The configuration comes before the first power-on, and forces and the state after it.
 bool HostPlayer::takeInputs() {
-  nextInputs_ = runtime::InputBits::fromList(instance().block().size(), reader_);
+  nextInputs_ = inputs_ && inputs_->takeSame(reader_)
+                    ? inputs_
+                    : runtime::InputBits::fromList(instance().block().size(), reader_);
   if (!instance_->on) (void)rung_instance_power_on(instance_, RUNG_COLD);
   instance().setNeededCopiesOnly(neededOnly_);
   return nextInputs_.has_value();

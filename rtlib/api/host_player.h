@@ -38,6 +38,7 @@ public:
 
   // Messages of the program are in the queue of the instance after each part.
   runtime::Instance& instance() override { return instance_->running; }
+  const nc::Control& control() const { return *instance_->control; }
 
 private:
   static int32_t request(void* player, rung_instance* instance, const rung_request* request, rung_reply* reply);

@@ -73,13 +73,13 @@ void BytesPlayer::run() {
   }
 }
 
-void BytesPlayer::compareOutputs(bool compares) {
-  if (compares && !comparesOutputs_ && outputs_) outputsHash_ = outputs_->hash(instance_.block().data());
-  comparesOutputs_ = compares;
+void BytesPlayer::compare(bool compares) {
+  if (compares && !compares_ && outputs_) outputsHash_ = outputs_->hash(instance_.block().data());
+  compares_ = compares;
 }
 
 void BytesPlayer::compareOutcome() {
-  const bool compares = outputs_ && comparesOutputs_;
+  const bool compares = outputs_ && compares_;
   const uint32_t hash = compares ? outputs_->hash(instance_.block().data()) : 0;
   if (isNext(Event::Hash)) {
     (void)reader_.takeEvent();

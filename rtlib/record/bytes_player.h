@@ -15,7 +15,7 @@ public:
   ~BytesPlayer() override;
 
   Instance& instance() override { return instance_; }
-  void compareOutputs(bool compares) override;
+  void compare(bool compares) override;
 
 private:
   uint32_t works() const override { return surroundings_.works; }
@@ -44,7 +44,6 @@ private:
   BlockBytes written_; // by the program
   std::optional<WatchedBytes> outputs_;
   uint32_t outputsHash_ = 0;
-  bool comparesOutputs_ = true;
   uint32_t within_ = 0;
 };
 

@@ -1,6 +1,7 @@
 // The bits of a program's memory block that its host writes before each slice, from variables that are bound to cells.
 // What the program does to them lasts until the next slice only, so it does not matter to a comparison.
 #pragma once
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -23,6 +24,14 @@ public:
   // Writes the number of runs of bytes and, for each, SKIP, BYTES and the masks. `listed`: the room for that.
   void list(EventWriter& writer) const noexcept { writer.putBytes(list_); }
   size_t listed() const noexcept { return list_.size(); }
+  // Whether the list that follows is this one, which it then takes.
+  bool takeSame(EventReader& reader) const noexcept {
+    EventReader after = reader;
+    const std::span<const uint8_t> same = after.takeBytes(list_.size());
+    if (!after.good() || !std::ranges::equal(same, list_)) return false;
+    reader = after;
+    return true;
+  }
   // The maximum number of bytes that `compare` can find changed.
   size_t bytes() const noexcept { return kPiece * kStep * steps_.size(); }
 

@@ -73,7 +73,7 @@ Played Player::play() {
 Played Player::playState() {
   const std::span<const uint8_t> bytes = reader_.takeBytes(reader_.takeNumber());
   if (!reader_.good()) return damaged();
-  if (whole_) compareState(bytes);
+  if (whole_ && compares_) compareState(bytes);
   core::Loader loader(bytes);
   switch (load(loader)) {
   case LoadResult::Loaded: break;

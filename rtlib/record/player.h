@@ -65,8 +65,8 @@ public:
   uint32_t lastNumber() const { return number_; } // of its task or fault
   // What was different in the last call; nothing if all was as recorded.
   const std::optional<PlayedDifference>& difference() const { return difference_; }
-  // Whether outputs are compared after each part, where the recording has them; states are in any case.
-  virtual void compareOutputs(bool compares) { (void)compares; }
+  // Whether outputs after each part, where the recording has them, and states are compared, as they are at first.
+  virtual void compare(bool compares) { compares_ = compares; }
   // The state that the recording has at this place is compared with that of the instance, if there is one.
   bool isWhole() const { return whole_; }
   // Events by which another player gets the present state, up to their end. Empty within a scan, and before a state.
@@ -104,6 +104,7 @@ protected:
   EventReader reader_{{}};
   bool whole_ = false;
   bool failed_ = false;
+  bool compares_ = true;
   PartKind kind_ = PartKind::Scan; // of the last part
   uint32_t number_ = 0;
 

@@ -383,7 +383,7 @@ SUB 64
         for word in ("1007", "EX1007"):
             self.assertIn(f"'{word}' is a message, not a name of this program; its bit is A1.2\n", done.stdout)
         self.assertIn("'1008' is not a name of this program", done.stdout)
-        self.assertIn("A1.2 is 0", done.stdout)
+        self.assertIn("A1.2 = 0", done.stdout)
 
     def test_the_end_of_forces_is_said(self):
         done = subprocess.run([Path(RUNGC).resolve(), "run", "-i", "-q", "lamp.mne"], cwd=self.folder, capture_output=True, text=True,

@@ -198,6 +198,7 @@ class Inputs(Folder):
         done = self.run_it("./lamp.so", "-i", stdin="set START 1\nscan\nwhy PUMP\nsave x.scn\n")
         self.assertEqual(done.returncode, WRONG)
         self.assertIn("run its sources", done.stdout)
+        self.assertIn("PUMP (5101.00) = 1, since scan 1, 0.010 s\n    written by rung 1", done.stdout)
         self.file("slow.scn", "program lamp.lad\nperiod 40ms\nscan\n")
         done = self.run_it("./lamp.so", "--scenario", "slow.scn")
         self.assertEqual(done.returncode, USAGE)
@@ -242,7 +243,7 @@ class Piped(Folder):
         self.file("sum.lad", "dialect nct\nmodule MAIN\nrung\n|--[7100.00]--{MOVF 7000 *2.5}\n")
         output = self.prompt("scan 2\nset 7100.00 1\nscan\nREAL.7000\n7000\nwhy REAL.7000\nwatch REAL.7000\nset REAL.7000 0x10\n"
                              "scan\nsave out.scn\nprint REAL.7000\n", program="sum.lad")
-        for text in ("REAL.7000 = 2.5\n", "7000 = 0 (0x0)\n", "REAL.7000 is 2.5\n    7000, changed in scan 3, 0.030 s\n    written by rung 1",
+        for text in ("REAL.7000 = 2.5\n", "7000 = 0 (0x0)\n", " = 2.5, since scan 3, 0.030 s\n    written by rung 1",
                      "30.000 ms  REAL.7000 = 16\n", "40.000 ms  REAL.7000 = 2.5\n", "scan 4: REAL.7000 = 2.5\n"):
             self.assertIn(text, output)
         self.assertIn("\nexpect REAL.7000 2.5\n", self.read("out.scn"))
@@ -260,10 +261,11 @@ class Piped(Folder):
 
     def test_why_says_what_is_forced(self):
         output = self.prompt("force STOP on\nforce PUMP 1\nscan\nwhy PUMP\nwhy READY\nunforce\nwhy PUMP\n")
-        for text in ("PUMP is 1\n    PUMP (5101.00) is forced to 1, changed in scan 1, 0.010 s\n    written by rung 1 ",
-                     "\n      STOP (5100.01) = 1, forced, changed in scan 1, 0.010 s\n",
-                     "\n      PUMP (5101.00) = 1, forced, changed in scan 1, 0.010 s\n", "\n    PUMP (5101.00), changed in scan 1"):
+        for text in ("PUMP (5101.00) = 1, since scan 1, 0.010 s\n    forced by a person\n      force PUMP 1\n",
+                     "  PUMP (5101.00) = 1, since scan 1, 0.010 s\n    forced by a person\n      force PUMP 1\n"):
             self.assertIn(text, output)
+        # A value that has been set, and that no scan has seen.
+        self.assertIn("PUMP = 1, set after scan 0, 0.000 s; no scan has run since\n", self.prompt("set PUMP 1\nwhy PUMP\n"))
 
     def test_wrong_forces(self):
         for line, message in (("force NOTHING 1", "'NOTHING' is not a name"), ("force PUMP", "expected a value"),

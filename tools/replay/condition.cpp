@@ -66,10 +66,9 @@ public:
 
   // "" or what is wrong.
   std::string run() {
-    const uint32_t root = either();
+    (void)either();
     if (problem_.empty() && at_ < tokens_.size())
       problem_ = fmt::format("expected and, or, a comparison or the end, found '{}'", tokens_[at_].text);
-    if (problem_.empty() && root + 1 != to_.nodes_.size()) add({.kind = Kind::And, .a = root, .b = root});
     return problem_;
   }
 
@@ -101,6 +100,12 @@ private:
     return left;
   }
   uint32_t term() {
+    if (++depth_ > kDeepest) problem_ = "it is nested too deeply";
+    const uint32_t node = problem_.empty() ? termInside() : 0;
+    --depth_;
+    return node;
+  }
+  uint32_t termInside() {
     if (take("not")) {
       const uint32_t of = term();
       return add({.kind = Kind::Not, .a = of});
@@ -138,19 +143,16 @@ private:
     const Token& token = tokens_[at_++];
     Operand operand;
     if (token.quoted || !number(token.text, operand)) {
-      const Result<runtime::Ref> ref = locate_(token.text);
-      if (!ref.ok()) {
-        problem_ = ref.error();
-        return 0;
-      }
+      operand = {};
       operand.name = token.text;
-      operand.ref = ref.value();
-      operand.real = ref.value().kind == runtime::RefKind::Real;
+      problem_ = operand.locate(locate_);
+      if (!problem_.empty()) return 0;
     }
     to_.operands_.push_back(std::move(operand));
     return static_cast<uint32_t>(to_.operands_.size() - 1);
   }
   static bool number(std::string_view text, Operand& operand) {
+    operand.isNumber = true;
     if (text == "on" || text == "true" || text == "off" || text == "false") {
       operand.integer = text == "on" || text == "true" ? 1 : 0;
       operand.number = static_cast<double>(operand.integer);
@@ -167,6 +169,8 @@ private:
       operand.number = static_cast<double>(operand.integer);
       return true;
     }
+    const bool begins = !digits.empty() && (digits[0] == '.' || (digits[0] >= '0' && digits[0] <= '9')); // not: INF
+    if (!begins) return false;
     const auto real = std::from_chars(text.data(), text.data() + text.size(), operand.number);
     operand.real = real.ec == std::errc() && real.ptr == text.data() + text.size();
     return operand.real;
@@ -175,9 +179,24 @@ private:
   Condition& to_;
   std::vector<Token> tokens_;
   const Locate& locate_;
+  static constexpr uint32_t kDeepest = 200;
   size_t at_ = 0;
+  uint32_t depth_ = 0;
   std::string problem_;
 };
+
+// A constant of the program is a number.
+std::string Condition::Operand::locate(const Locate& locate) {
+  const Result<runtime::Ref> found = locate(name);
+  if (!found.ok()) return found.error();
+  ref = found.value();
+  place = {};
+  if (ref.kind == runtime::RefKind::Text) return fmt::format("{} is a text, and conditions compare numbers", name);
+  real = ref.kind == runtime::RefKind::Real;
+  isNumber = ref.kind == runtime::RefKind::Constant;
+  if (isNumber) integer = ref.constant, number = static_cast<double>(ref.constant);
+  return {};
+}
 
 Result<Condition> Condition::parse(std::string_view text, const Locate& locate) {
   Result<std::vector<Token>> tokens = tokensOf(text);
@@ -190,20 +209,16 @@ Result<Condition> Condition::parse(std::string_view text, const Locate& locate) 
 }
 
 std::string Condition::locate(const Locate& locate) {
-  for (Operand& operand : operands_) {
-    if (operand.name.empty()) continue;
-    const Result<runtime::Ref> ref = locate(operand.name);
-    if (!ref.ok()) return ref.error();
-    operand.ref = ref.value();
-    operand.place = {};
-  }
+  for (Operand& operand : operands_)
+    if (!operand.name.empty())
+      if (std::string problem = operand.locate(locate); !problem.empty()) return problem;
   restart();
   return {};
 }
 
 bool Condition::holds(const core::Memory& memory) {
   for (Operand& operand : operands_)
-    if (!operand.name.empty() && operand.place.outside()) operand.place = runtime::locate(memory, operand.ref);
+    if (!operand.isNumber && operand.place.outside()) operand.place = runtime::locate(memory, operand.ref);
   const bool result = holds(static_cast<uint32_t>(nodes_.size() - 1), memory);
   started_ = true;
   return result;
@@ -222,7 +237,7 @@ bool Condition::holds(uint32_t index, const core::Memory& memory) {
   case Kind::Changes:
   case Kind::Rises:
   case Kind::Falls: {
-    const uint64_t now = memory.read(operands_[node.a].place);
+    const uint64_t now = bitsOf(operands_[node.a], memory);
     const uint64_t last = std::exchange(node.last, now);
     if (!started_) return false;
     return node.kind == Kind::Changes ? now != last
@@ -232,33 +247,45 @@ bool Condition::holds(uint32_t index, const core::Memory& memory) {
   }
 }
 
-// A pattern of bits is equal as one; otherwise integers are signed.
+uint64_t Condition::bitsOf(const Operand& operand, const core::Memory& memory) {
+  return operand.isNumber ? static_cast<uint64_t>(operand.integer) : memory.read(operand.place);
+}
+
+int64_t Condition::integerOf(const Operand& operand, const core::Memory& memory) {
+  if (operand.isNumber) return operand.integer;
+  return operand.place.width() == 1 ? static_cast<int64_t>(memory.read(operand.place))
+                                    : memory.readSigned(operand.place);
+}
+
+double Condition::realOf(const Operand& operand, const core::Memory& memory) {
+  return operand.isNumber ? operand.number : memory.readReal(operand.place);
+}
+
+// Whole values, as signed; a number may also be the pattern of the place's bits, such as 65535 of a word that is -1.
+bool Condition::equal(const Operand& a, const Operand& b, const core::Memory& memory) {
+  if (integerOf(a, memory) == integerOf(b, memory)) return true;
+  return a.isNumber != b.isNumber && bitsOf(a, memory) == bitsOf(b, memory);
+}
+
 bool Condition::compare(const Node& node, const core::Memory& memory) const {
   const Operand& a = operands_[node.a];
-  const auto raw = [&](const Operand& of) {
-    return of.name.empty() ? static_cast<uint64_t>(of.integer) : memory.read(of.place);
-  };
-  if (node.kind == Kind::Value) return raw(a) != 0;
+  if (node.kind == Kind::Value) return a.real ? realOf(a, memory) != 0 : bitsOf(a, memory) != 0;
   const Operand& b = operands_[node.b];
   if (a.real || b.real) {
-    const auto real = [&](const Operand& of) { return of.name.empty() ? of.number : memory.readReal(of.place); };
+    const double left = realOf(a, memory), right = realOf(b, memory);
     switch (node.kind) {
-    case Kind::Equal: return real(a) == real(b);
-    case Kind::NotEqual: return real(a) != real(b);
-    case Kind::Less: return real(a) < real(b);
-    default: return real(a) <= real(b);
+    case Kind::Equal: return left == right;
+    case Kind::NotEqual: return left != right;
+    case Kind::Less: return left < right;
+    default: return left <= right;
     }
   }
-  const auto isNumber = [&](const Operand& of) {
-    if (of.name.empty()) return of.integer;
-    return of.place.width() == 1 ? static_cast<int64_t>(memory.read(of.place)) : memory.readSigned(of.place);
-  };
-  if (node.kind == Kind::Less) return isNumber(a) < isNumber(b);
-  if (node.kind == Kind::LessEqual) return isNumber(a) <= isNumber(b);
-  const auto width = [](const Operand& of) { return of.name.empty() || of.place.apart() ? 64u : of.place.width(); };
-  const uint32_t bits = std::min(width(a), width(b));
-  const uint64_t mask = bits >= 64 ? ~uint64_t{0} : (uint64_t{1} << bits) - 1;
-  return ((raw(a) & mask) == (raw(b) & mask)) == (node.kind == Kind::Equal);
+  switch (node.kind) {
+  case Kind::Equal: return equal(a, b, memory);
+  case Kind::NotEqual: return !equal(a, b, memory);
+  case Kind::Less: return integerOf(a, memory) < integerOf(b, memory);
+  default: return integerOf(a, memory) <= integerOf(b, memory);
+  }
 }
 
 // ---- search ------------------------------------------------------------------------------------------------------
@@ -271,11 +298,7 @@ void search(Past& past, Condition& condition, const Condition::Locate& locate, u
             std::string& problem, Found found) {
   problem = past.goTo(from);
   if (!problem.empty()) return;
-  struct Comparing { // what differs is of no interest meanwhile
-    explicit Comparing(Past& of) : past(of) { past.compareOutputs(false); }
-    ~Comparing() { past.compareOutputs(true); }
-    Past& past;
-  } const comparing(past);
+  const NotCompared notCompared(past);
   const auto memory = [&] { return past.instance().memory(); };
   uint32_t program = past.programNumber();
   problem = condition.locate(locate);

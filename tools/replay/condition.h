@@ -39,9 +39,13 @@ public:
 private:
   enum class Kind : uint8_t { Value, Equal, NotEqual, Less, LessEqual, Changes, Rises, Falls, And, Or, Not };
   struct Operand {
-    std::string name; // "": a number
+    // "" or what is wrong with the name.
+    std::string locate(const Locate& locate);
+
+    std::string name; // "": a number that is written
     runtime::Ref ref;
     core::Place place;
+    bool isNumber = false; // `integer` and `number`, and no place
     double number = 0;
     int64_t integer = 0;
     bool real = false;
@@ -55,6 +59,10 @@ private:
   class Parser;
   bool holds(uint32_t node, const core::Memory& memory);
   bool compare(const Node& node, const core::Memory& memory) const;
+  static uint64_t bitsOf(const Operand& operand, const core::Memory& memory);
+  static int64_t integerOf(const Operand& operand, const core::Memory& memory);
+  static double realOf(const Operand& operand, const core::Memory& memory);
+  static bool equal(const Operand& a, const Operand& b, const core::Memory& memory);
 
   std::vector<Node> nodes_; // the last one is the root
   std::vector<Operand> operands_;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "rtlib/load/program_info.h"
+#include "tools/replay/past_messages.h"
 #include "tools/replay/scenario_file.h"
 #include "tools/replay/why.h"
 #include "tools/scenario/names.h"
@@ -30,7 +31,8 @@ std::optional<uint64_t> numberOf(std::string_view word) {
 std::optional<int64_t> timeOf(std::string_view word) {
   double number = 0;
   const auto read = std::from_chars(word.data(), word.data() + word.size(), number);
-  if (read.ec != std::errc() || number < 0) return std::nullopt;
+  constexpr double kMost = 1e12; // seconds
+  if (read.ec != std::errc() || !(number >= 0 && number <= kMost)) return std::nullopt;
   const std::string_view unit(read.ptr, static_cast<size_t>(word.data() + word.size() - read.ptr));
   if (unit == "us") return static_cast<int64_t>(number);
   if (unit == "ms") return static_cast<int64_t>(number * 1e3);
@@ -87,8 +89,12 @@ Outcome Console::execute(std::string_view line) {
   std::vector<std::string> words = scenario::typedWords(line);
   if (!words.empty() && words.back().empty()) words.pop_back();
   if (words.empty() || words[0].starts_with('#')) return Outcome::Done;
-  for (const Command& command : commands())
-    if (command.word == words[0]) return (this->*command.run)(std::span(words).subspan(1));
+  for (const Command& command : commands()) {
+    if (command.word != words[0]) continue;
+    if (command.form == command.word && words.size() > 1)
+      return fail(fmt::format("expected no more words (the command is: {})", command.form));
+    return (this->*command.run)(std::span(words).subspan(1));
+  }
   return fail(fmt::format("'{}' is not a command; help lists them", words[0]));
 }
 
@@ -140,16 +146,18 @@ Outcome Console::time(Words words) {
 Outcome Console::move(Words words, bool forwards) {
   uint64_t count = 1;
   std::string_view unit = "scan";
-  for (const std::string& word : words)
-    if (const std::optional<uint64_t> number = numberOf(word))
-      count = *number;
-    else
-      unit = word;
+  if (const std::optional<uint64_t> number = words.empty() ? std::nullopt : numberOf(words[0])) {
+    count = *number;
+    words = words.subspan(1);
+  }
+  if (!words.empty()) unit = words[0];
+  if (words.size() > 1) return fail(fmt::format("expected a number and scan, task or rung, found '{}'", words[1]));
   if (unit == "rung" || unit == "task") return moveByRungs(count, forwards, unit == "task");
   if (unit != "scan") return fail(fmt::format("expected scan, task or rung, found '{}'", unit));
   // Within a scan, back goes to its beginning.
   const uint64_t here = past_.part() - (runs_ && forwards ? 1 : 0);
   if (!forwards && count > here - past_.firstPart()) return fail("the recording begins here");
+  if (forwards && count > past_.contents().parts - here) return fail(past_.rangeText());
   return arrived(past_.goTo(forwards ? here + count : here - count));
 }
 
@@ -248,9 +256,10 @@ Outcome Console::rung(Words words) {
       if (times[r] != 0) print_(runtime::rungText(past_.instance().program(), elements.rungs()[r].lowered[0]));
     return Outcome::Done;
   }
-  const std::optional<uint64_t> number = numberOf(words[0]);
+  const std::optional<uint64_t> number = words.size() == 1 ? numberOf(words[0]) : std::nullopt;
+  if (!number) return fail("expected a number (the command is: rung [N])");
   const auto rung = std::ranges::find_if(elements.rungs(), [&](const SourceRung& r) { return r.number == number; });
-  if (!number || rung == elements.rungs().end())
+  if (rung == elements.rungs().end())
     return fail(fmt::format("there is no rung '{}'; the program has {}", words[0], elements.rungs().size()));
   const uint32_t index = static_cast<uint32_t>(rung - elements.rungs().begin());
   print_(fmt::format("{}{}", runtime::rungText(past_.instance().program(), rung->lowered[0]),
@@ -372,22 +381,25 @@ Outcome Console::faults(Words) {
 
 Outcome Console::messages(Words) {
   const uint64_t here = past_.part();
-  std::string problem = past_.goTo(past_.firstPart());
+  bool any = false;
+  const std::string problem = forEachMessage(past_, [&](const PastMessage& change) {
+    print_(fmt::format("{}: {}{}", positionText(past_), change.gone ? "gone: " : "", change.text));
+    any = true;
+  });
+  (void)past_.goTo(here);
   if (!problem.empty()) return fail(problem);
-  std::vector<nc::ShownMessage> shown;
-  while (past_.next()) {
-    for (const rung_message& message : past_.sent()) nc_->accept(past_.instance(), message);
-    std::vector<nc::ShownMessage> now = nc_->control().messages(past_.instance());
-    const auto isIn = [](const nc::ShownMessage& message, const std::vector<nc::ShownMessage>& all) {
-      return std::ranges::any_of(all, [&](const nc::ShownMessage& other) { return other.isSameButText(message); });
-    };
-    for (const nc::ShownMessage& message : now)
-      if (!isIn(message, shown)) print_(fmt::format("{}: {}", positionText(past_), nc_->control().text(message)));
-    for (const nc::ShownMessage& message : shown)
-      if (!isIn(message, now)) print_(fmt::format("{}: gone: {}", positionText(past_), nc_->control().text(message)));
-    shown = std::move(now);
+  return any ? Outcome::Done : say("no messages");
+}
+
+// Where events are missing between two parts, or cannot be read.
+std::vector<std::string> Console::gaps(uint64_t from, uint64_t to) const {
+  std::vector<std::string> gaps;
+  for (const Landmark& landmark : past_.contents().landmarks) {
+    const bool isGap = landmark.kind == Landmark::Kind::Lost || landmark.kind == Landmark::Kind::Damaged;
+    if (isGap && landmark.part >= from && landmark.part <= to)
+      gaps.push_back(fmt::format("after scan {}: {}", landmark.part, landmark.text));
   }
-  return arrived(past_.goTo(here));
+  return gaps;
 }
 
 Outcome Console::compare(Words) {
@@ -395,43 +407,69 @@ Outcome Console::compare(Words) {
   std::string problem = past_.goTo(past_.firstPart());
   while (problem.empty() && past_.next()) {
   }
-  problem = past_.problem();
+  if (problem.empty()) problem = past_.problem();
   for (const Difference& difference : past_.differences())
     print_(fmt::format("scan {}: otherwise than recorded{}{}", difference.part, difference.place.empty() ? "" : " at ",
                        difference.place));
-  if (past_.differences().empty() && problem.empty())
-    print_(fmt::format("{} scans do what was recorded", past_.part() - past_.firstPart()));
+  const std::vector<std::string> missing = gaps(0, past_.contents().parts);
+  if (past_.differences().empty())
+    print_(fmt::format("{} scans do what was recorded{}", past_.part() - past_.firstPart(),
+                       problem.empty() && missing.empty() ? "" : "; the recording has more"));
+  for (const std::string& gap : missing) print_(gap);
   if (!problem.empty()) print_(problem);
-  const bool good = past_.differences().empty() && problem.empty();
+  const bool good = past_.differences().empty() && problem.empty() && missing.empty();
   (void)past_.goTo(here);
   return good ? Outcome::Done : Outcome::Failed;
 }
 
 // ---- files -------------------------------------------------------------------------------------------------------
 
-std::string Console::exportTo(const std::string& path, uint64_t from, uint64_t to, std::vector<std::string> names) {
-  if (path.ends_with(".scn")) return exportScenario(path, from, to);
-  if (std::string wrong = scenario::traceFileProblem(path); !wrong.empty()) return wrong;
-  if (std::string problem = past_.goTo(std::max(from, past_.firstPart())); !problem.empty()) return problem;
+Result<std::vector<std::string>> Console::exportTo(const std::string& path, uint64_t from, uint64_t to,
+                                                   std::vector<std::string> names) {
+  if (from >= to) return failure(fmt::format("the first scan, {}, is not before the last one, {}", from, to));
+  if (to > past_.contents().parts || from < past_.firstPart()) return failure(past_.rangeText());
   runs_.reset();
-  if (names.empty()) names = scenario::defaultTraceNames(past_.instance().program(), past_.compiled().uses.get());
-  if (std::string wrong = scenario::Trace::nameProblem(names, past_.instance(), *nc_); !wrong.empty()) return wrong;
-  auto trace = scenario::Trace::open(path, names, past_.instance(), *nc_);
-  if (!trace.ok()) return trace.error();
-  const uint32_t program = past_.programNumber();
-  while (past_.part() < to && past_.next() && past_.programNumber() == program)
-    trace.value()->sample(past_.instance(), *nc_, past_.part());
-  return trace.value()->finish();
+  if (!path.ends_with(".scn")) return exportTrace(path, from, to, std::move(names));
+  if (!names.empty()) return failure("a scenario has what others wrote, and no list of names");
+  return exportScenario(path, from, to);
 }
 
-std::string Console::exportScenario(const std::string& path, uint64_t from, uint64_t to) {
-  const Result<std::string> text = scenarioOf(past_, path, from, to);
-  runs_.reset();
-  if (!text.ok()) return text.error();
+// Of another program that takes over, the names that it has, too.
+Result<std::vector<std::string>> Console::exportTrace(const std::string& path, uint64_t from, uint64_t to,
+                                                      std::vector<std::string> names) {
+  if (std::string wrong = scenario::traceFileProblem(path); !wrong.empty()) return failure(std::move(wrong));
+  if (std::string problem = past_.goTo(from); !problem.empty()) return failure(std::move(problem));
+  if (names.empty()) names = scenario::defaultTraceNames(past_.instance().program(), past_.compiled().uses.get());
+  if (std::string wrong = scenario::Trace::nameProblem(names, past_.instance(), *nc_); !wrong.empty())
+    return failure(std::move(wrong));
+  auto trace = scenario::Trace::open(path, names, past_.instance(), *nc_);
+  if (!trace.ok()) return trace.failure();
+  const NotCompared notCompared(past_);
+  uint32_t program = past_.programNumber();
+  int64_t us = past_.instance().nowUs();
+  while (past_.part() < to && past_.next()) {
+    if (std::exchange(program, past_.programNumber()) != past_.programNumber())
+      trace.value()->relocate(past_.instance(), *nc_);
+    const int64_t now = past_.instance().nowUs();
+    if (now < std::exchange(us, now)) trace.value()->clockSet(now); // it was started again
+    trace.value()->sample(past_.instance(), *nc_, past_.part());
+  }
+  if (std::string wrong = trace.value()->finish(); !wrong.empty()) return failure(std::move(wrong));
+  std::vector<std::string> lacks = gaps(from, to);
+  if (past_.part() < to)
+    lacks.push_back(fmt::format("it ends with scan {}: {}", past_.part(),
+                                past_.problem().empty() ? "the recording ends there" : past_.problem()));
+  return lacks;
+}
+
+Result<std::vector<std::string>> Console::exportScenario(const std::string& path, uint64_t from, uint64_t to) {
+  Result<ScenarioText> scenario = scenarioOf(past_, path, from, to);
+  if (!scenario.ok()) return scenario.failure();
   std::ofstream out(path, std::ios::binary);
-  out << text.value();
+  out << scenario.value().text;
   out.close();
-  return out ? std::string() : fmt::format("cannot write '{}'", path);
+  if (!out) return failure(fmt::format("cannot write '{}'", path));
+  return std::move(scenario.value().lacks);
 }
 
 Outcome Console::exportCommand(Words words) {
@@ -444,9 +482,13 @@ Outcome Console::exportCommand(Words words) {
     next = 3;
   }
   const uint64_t here = past_.part();
-  const std::string problem = exportTo(words[0], from, to, {words.begin() + static_cast<ptrdiff_t>(next), words.end()});
+  const Result<std::vector<std::string>> lacks =
+      exportTo(words[0], from, to, {words.begin() + static_cast<ptrdiff_t>(next), words.end()});
   (void)past_.goTo(here);
-  return problem.empty() ? say("wrote " + words[0]) : fail(problem);
+  if (!lacks.ok()) return fail(lacks.error());
+  print_("wrote " + words[0]);
+  for (const std::string& lack : lacks.value()) print_(lack);
+  return lacks.value().empty() ? Outcome::Done : Outcome::Failed;
 }
 
 Outcome Console::help(Words) {

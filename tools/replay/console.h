@@ -31,8 +31,9 @@ public:
   // "NAME = VALUE" at the present position.
   Result<std::string> shown(const std::string& name);
   // Writes the values of names in parts `from` to `to` to FILE.vcd or FILE.csv; without names, all that rungs use. Or a
-  // scenario that does the same to FILE.scn. "" or what is wrong.
-  std::string exportTo(const std::string& path, uint64_t from, uint64_t to, std::vector<std::string> names);
+  // scenario that does the same to FILE.scn. A sentence for each thing that the file lacks.
+  Result<std::vector<std::string>> exportTo(const std::string& path, uint64_t from, uint64_t to,
+                                            std::vector<std::string> names);
   // `NAME`, `NAME @ SCAN`. The error says what is wrong.
   Result<std::string> why(std::span<const std::string> words, bool asJson);
   // Where the condition begins to hold, in all of the recording; at most `most`.
@@ -66,7 +67,10 @@ private:
   scenario::Outcome exportCommand(Words words);
   scenario::Outcome help(Words words);
   scenario::Outcome quit(Words) { return scenario::Outcome::Quit; }
-  std::string exportScenario(const std::string& path, uint64_t from, uint64_t to);
+  std::vector<std::string> gaps(uint64_t from, uint64_t to) const;
+  Result<std::vector<std::string>> exportScenario(const std::string& path, uint64_t from, uint64_t to);
+  Result<std::vector<std::string>> exportTrace(const std::string& path, uint64_t from, uint64_t to,
+                                               std::vector<std::string> names);
   scenario::Outcome move(Words words, bool forwards);
   scenario::Outcome moveByRungs(uint64_t count, bool forwards, bool byTask);
   bool ranToRung();

@@ -41,10 +41,17 @@ Result<void> Past::useStage(uint32_t number) {
     Result<std::unique_ptr<Stage>> made = Stage::make(*recording_.programs[number], options_.engine, recording_.mode);
     if (!made.ok()) return made.failure();
     stages_[number] = std::move(made).value();
-    stages_[number]->player().compareOutputs(comparesOutputs_);
+    stages_[number]->player().compare(compares_);
   }
   stageNumber_ = number;
+  watch(watch_);
   return {};
+}
+
+void Past::watch(runtime::OutsideWatch* watch) {
+  watch_ = watch;
+  for (const std::unique_ptr<Stage>& one : stages_)
+    if (one) one->player().instance().setOutsideWatch(one == stages_[stageNumber_] ? watch : nullptr);
 }
 
 void Past::play(size_t from) {
@@ -70,7 +77,7 @@ bool Past::begin(const StatePoint& point) {
     if (played == Played::State) return true;
     if (played != Played::Other && played != Played::Damaged) break;
   }
-  problem_ = fmt::format("the state before part {} is of no program of this recording, or damaged", point.part + 1);
+  problem_ = fmt::format("the state before scan {} is of no program of this recording, or damaged", point.part + 1);
   return false;
 }
 
@@ -136,17 +143,23 @@ bool Past::nextSegment() {
   for (uint32_t next = segment_ + 1; next < recording_.segments.size(); ++next) {
     const auto point = std::ranges::find(contents_.states, next, &StatePoint::segment);
     if (point == contents_.states.end()) continue;
-    return begin(*point);
+    const bool follows = next == segment_ + 1 && recording_.segments[segment_].damage.empty();
+    if (!begin(*point)) return false;
+    if (follows) noteDifference();
+    return true;
   }
   problem_.clear();
   return false;
 }
 
+// The player has come to the events of a state of another program, or has read it.
 bool Past::otherProgram() {
-  const size_t ends = position();
+  const size_t at = position();
   const auto point = std::ranges::find_if(contents_.states,
-                                          [&](const StatePoint& p) { return p.segment == segment_ && p.ends == ends; });
-  return point != contents_.states.end() && begin(*point);
+                                          [&](const StatePoint& p) { return p.segment == segment_ && p.ends >= at; });
+  if (point != contents_.states.end()) return begin(*point);
+  problem_ = fmt::format("after scan {} another program takes over, of which the recording has no state", part_);
+  return false;
 }
 
 bool Past::next() {
@@ -169,15 +182,15 @@ bool Past::next() {
       if (!otherProgram()) return false;
       break;
     case Played::NoForces: problem_ = "its forces cannot be put in effect"; return false;
-    case Played::Damaged: problem_ = fmt::format("the recording is damaged after part {}", part_); return false;
+    case Played::Damaged: problem_ = fmt::format("the recording is damaged after scan {}", part_); return false;
     }
   }
 }
 
-void Past::compareOutputs(bool compares) {
-  comparesOutputs_ = compares;
+void Past::compare(bool compares) {
+  compares_ = compares;
   for (const std::unique_ptr<Stage>& stage : stages_)
-    if (stage) stage->player().compareOutputs(compares);
+    if (stage) stage->player().compare(compares);
 }
 
 void Past::takeSent() {
@@ -197,9 +210,12 @@ void Past::noteDifference() {
   differences_.push_back(std::move(difference));
 }
 
+std::string Past::rangeText() const {
+  return fmt::format("the recording has scans {} to {}", firstPart(), contents_.parts);
+}
+
 std::string Past::goTo(uint64_t aim) {
-  if (aim > contents_.parts || aim < firstPart())
-    return fmt::format("the recording has parts {} to {}", firstPart(), contents_.parts);
+  if (aim > contents_.parts || aim < firstPart()) return rangeText();
   const auto afterKept = kept_.upper_bound(aim);
   const Moment* kept = afterKept == kept_.begin() ? nullptr : &std::prev(afterKept)->second;
   // Of several states before the same part the last one is what it begins with; the part before ends with the first.
@@ -245,6 +261,7 @@ std::string Past::goToTime(int64_t us) {
 const Flow* Past::flow(const FlowEngine::AfterRun& afterRun) {
   const uint64_t here = part_;
   blockBefore_.clear();
+  outside_.clear();
   if (here <= firstPart() || !goTo(here - 1).empty()) {
     (void)goTo(here);
     return nullptr;
@@ -265,7 +282,10 @@ const Flow* Past::flow(const FlowEngine::AfterRun& afterRun) {
       from->segment = segment_;
       from->position = 0;
     }
-    flow = stage().flow(*from, recording_.segments[segment_].events, afterRun);
+    const std::span<const uint8_t> events = recording_.segments[segment_].events;
+    if (from->repeats == 0)
+      outside_ = replay::outsideWrites(from->events, events.subspan(from->position), recording_.mode);
+    flow = stage().flow(*from, events, afterRun);
   } else {
     (void)goTo(here);
   }

@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "rtlib/nc/control/control.h"
 #include "tools/replay/recording.h"
 #include "tools/replay/stage.h"
 
@@ -50,6 +51,7 @@ public:
   uint32_t programNumber() const { return stageNumber_; } // in Recording::programs
   // The first part that can be reached.
   uint64_t firstPart() const { return contents_.states.front().part; }
+  std::string rangeText() const; // "the recording has scans 0 to 100"
 
   // Goes there. "" or why that is impossible; the position is then undefined until the next call that succeeds.
   std::string goTo(uint64_t part);
@@ -66,13 +68,19 @@ public:
   runtime::Instance& flowInstance() { return stage().flowInstance(); }
   // The state before that part, of the same program; empty: the program was started, or a state loaded, in between.
   std::span<const uint8_t> blockBefore() const { return blockBefore_; }
+  // What others wrote before that part and within it.
+  std::span<const OutsideWrite> outsideWrites() const { return outside_; }
 
-  // Sees what comes to the program from outside while `next` runs it, in the program of now. Null: none.
-  void watch(runtime::OutsideWatch* watch) { stage().player().instance().setOutsideWatch(watch); }
+  // Sees what comes to the program from outside while it is played, whichever program runs. Null: none.
+  void watch(runtime::OutsideWatch* watch);
+  // The control that plays, whose messages are those of the present position; null if it does not run again. `attach`
+  // makes another one see the program of now, without changing anything.
+  const nc::Control* control() const { return controlOf(stages_[stageNumber_]->player()); }
+  void attach(nc::Control& control) { control.onReplace(stage().player().instance()); }
   // The messages that the program has sent in the last part that `next` has run.
   std::span<const rung_message> sent() const { return sent_; }
-  // Whether outputs are compared after each part, as they are at first: playing is faster without it.
-  void compareOutputs(bool compares);
+  // Whether what the program does is compared with what was recorded, as it is at first: playing is faster without it.
+  void compare(bool compares);
   // Those found so far where it has been played; the first ones.
   const std::vector<Difference>& differences() const { return differences_; }
 
@@ -115,9 +123,23 @@ private:
   size_t keptBytes_ = 0;
   std::vector<uint64_t> keptOrder_; // parts, the oldest first
   std::vector<uint8_t> blockBefore_;
+  std::vector<OutsideWrite> outside_;
   std::vector<Difference> differences_;
-  bool comparesOutputs_ = true;
+  bool compares_ = true;
   std::vector<rung_message> sent_;
+  runtime::OutsideWatch* watch_ = nullptr;
+};
+
+// What differs is of no interest, as long as this lives.
+class NotCompared {
+public:
+  explicit NotCompared(Past& past) : past_(past) { past_.compare(false); }
+  ~NotCompared() { past_.compare(true); }
+  NotCompared(const NotCompared&) = delete;
+  NotCompared& operator=(const NotCompared&) = delete;
+
+private:
+  Past& past_;
 };
 
 // "scan 12, 0.120 s": parts and time as the prompt of `rungc run` counts them.

@@ -33,4 +33,9 @@ std::unique_ptr<runtime::Player> makePlayer(runtime::RecordingMode mode, runtime
   return std::make_unique<OfBytes>(engine, owner);
 }
 
+const nc::Control* controlOf(const runtime::Player& player) {
+  const auto* host = dynamic_cast<const api::HostPlayer*>(&player);
+  return host == nullptr ? nullptr : &host->control();
+}
+
 } // namespace rung::replay

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "rtlib/load/engine.h"
+#include "rtlib/nc/control/control.h"
 #include "rtlib/record/player.h"
 #include "rtlib/record/recording_file.h"
 
@@ -11,5 +12,8 @@ namespace rung::replay {
 // Both arguments outlive the player.
 std::unique_ptr<runtime::Player> makePlayer(runtime::RecordingMode mode, runtime::Engine& engine,
                                             runtime::PlayerOwner& owner);
+
+// The control of the dialect that plays; null if it does not run again.
+const nc::Control* controlOf(const runtime::Player& player);
 
 } // namespace rung::replay

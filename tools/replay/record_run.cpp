@@ -40,6 +40,7 @@ SessionRecorder::SessionRecorder(scenario::Session& session, const std::string& 
                                  const compiler::Compiled& program)
     : SessionRecorder(session) {
   const runtime::RecordingOptions options{.folder = folder, .limitBytes = UINT64_MAX};
+  folder_ = folder;
   writer_ = std::make_unique<runtime::RecordingWriter>(recorder_->stream(), runtime::RecordingMode::Bytes, options);
   add(program);
 }
@@ -56,7 +57,10 @@ void SessionRecorder::add(const compiler::Compiled& program) {
 
 // The writer does without a thread of its own: the clock of a session runs far ahead of it.
 void SessionRecorder::drain() {
-  if (writer_ && ++scans_ % kScansBetween != 0) return;
+  if (!writer_ || ++scans_ % kScansBetween == 0) flush();
+}
+
+void SessionRecorder::flush() {
   recorder_->flush();
   if (writer_) return writer_->look();
   core::ByteRing& ring = recorder_->ring();
@@ -79,9 +83,16 @@ void SessionRecorder::replaced(const scenario::Session& session, const scenario:
     if (const Result<const compiler::Compiled*> program = next.compiled(); program.ok()) add(*program.value());
 }
 
+Result<Recording> SessionRecorder::soFar(std::vector<std::shared_ptr<const compiler::Compiled>> programs) {
+  flush();
+  if (writer_) return readRecording(folder_, std::move(programs));
+  Recording recording = recording_;
+  recording.programs = std::move(programs);
+  return recording;
+}
+
 Recording SessionRecorder::take() {
-  scans_ = kScansBetween - 1;
-  drain();
+  flush();
   writer_.reset();
   instance_->setOutsideWatch(nullptr);
   instance_ = nullptr;
@@ -111,16 +122,16 @@ void recordInto(const std::string& folder, scenario::RunOptions& options) {
 Result<RecordedScenario> recordScenario(const scenario::Scenario& scenario, scenario::RunOptions options) {
   RecordedScenario recorded;
   const scenario::CompileSettings settings{.strict = options.strict, .marks = true};
-  std::vector<std::unique_ptr<compiler::Compiled>> programs;
+  std::vector<std::shared_ptr<const compiler::Compiled>> programs;
   scenario::CompileStep step = scenario::compileProgram(scenario, options.programs, settings);
   if (!step.program) return failure(step.environment.empty() ? "its program does not compile" : step.environment);
   const frontend::Dialect& dialect = *step.program->dialect;
-  programs.push_back(std::make_unique<compiler::Compiled>(std::move(*step.program)));
+  programs.push_back(std::make_shared<compiler::Compiled>(std::move(*step.program)));
   for (const scenario::Statement& s : scenario.statements) {
     const bool takesOver = scenario::StatementInfo::of(s).program == scenario::OtherProgram::TakesOver;
     if (!takesOver || s.words.empty()) continue;
     scenario::CompileStep next = scenario::compileNext(scenario, s, dialect, settings);
-    if (next.program) programs.push_back(std::make_unique<compiler::Compiled>(std::move(*next.program)));
+    if (next.program) programs.push_back(std::make_shared<compiler::Compiled>(std::move(*next.program)));
   }
   std::unique_ptr<SessionRecorder> recorder;
   const auto started = std::exchange(options.started, {});

@@ -28,16 +28,20 @@ public:
   void scanned(const scenario::Session&) override { drain(); }
   void replaced(const scenario::Session& session, const scenario::NextProgram& next) override;
 
+  // What has been recorded so far; it is of these programs.
+  Result<Recording> soFar(std::vector<std::shared_ptr<const compiler::Compiled>> programs);
   // Ends it. What has been recorded in memory; its programs are still missing.
   Recording take();
 
 private:
   void drain();
+  void flush();
   void add(const compiler::Compiled& program);
 
   runtime::Instance* instance_;
   std::unique_ptr<runtime::Recorder> recorder_;
   std::unique_ptr<runtime::RecordingWriter> writer_; // null: in memory
+  std::string folder_;                               // of files
   std::unique_ptr<runtime::RecordedBytes> bytes_;    // of the former program
   uint64_t scans_ = 0;
   Recording recording_;

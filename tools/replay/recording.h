@@ -2,12 +2,16 @@
 // themselves, and the programs that it was.
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "compiler/compile.h"
 #include "ir/support/result.h"
+#include "rtlib/core/runner.h"
+#include "rtlib/record/events.h"
 #include "rtlib/record/recording_file.h"
 
 namespace rung::replay {
@@ -20,7 +24,7 @@ struct Segment {
 struct Recording {
   std::vector<Segment> segments;
   // Compiled with marks and their modules as built (CompileRequest::marks, keepBuilt); the first one first.
-  std::vector<std::unique_ptr<compiler::Compiled>> programs;
+  std::vector<std::shared_ptr<const compiler::Compiled>> programs;
   runtime::RecordingMode mode = runtime::RecordingMode::Bytes;
   std::vector<std::string> problems; // what of its files could not be read
 };
@@ -46,19 +50,44 @@ struct Landmark {
   std::string text;
 };
 
+// From this part on, these bits of the memory block are forced.
+struct ForceChange {
+  uint64_t part = 0; // parts before it
+  std::vector<core::ForcedBits> bits;
+};
+
+// What others have written to the program's memory before a part, or in hooks within it, by the events of the part.
+struct OutsideWrite {
+  enum class By : uint8_t {
+    Machine, // inputs that the host binds
+    Client,  // a person or another program, through the host
+    Control, // in a hook; or the machine, where its control does not run again
+    Any,     // one of these: between two parts of a program in a simulated control
+  };
+  uint32_t offset = 0, count = 0; // in the block
+  By by = By::Any;
+};
+// Of the first part in `events`, which follow on those of the state `before` it (Player::state).
+std::vector<OutsideWrite> outsideWrites(std::span<const uint8_t> before, std::span<const uint8_t> events,
+                                        runtime::RecordingMode mode);
+
 // What a recording contains, without playing it. Parts are counted from the beginning; those that cannot be played,
 // because no state comes before them, do not count.
 struct Contents {
-  explicit Contents(const Recording& recording);
+  // `see`, if there is one, is called for each event, with the parts before it.
+  using See = std::function<void(runtime::Event event, uint64_t part)>;
+  explicit Contents(const Recording& recording, const See& see = {});
 
   uint64_t parts = 0;
   std::vector<StatePoint> states;     // ascending
   std::vector<Landmark> landmarks;    // by part
   std::vector<uint64_t> segmentParts; // by segment: parts before it
+  std::vector<ForceChange> forces;    // by part
 };
 
 // Reads the files of a recording: a folder, or one segment (docs/recording.md). `known`: programs that it may be of, in
 // addition to those that it has. Fails if there is nothing to read, or no program for any of it.
-Result<Recording> readRecording(const std::string& path, std::vector<std::unique_ptr<compiler::Compiled>> known = {});
+Result<Recording> readRecording(const std::string& path,
+                                std::vector<std::shared_ptr<const compiler::Compiled>> known = {});
 
 } // namespace rung::replay

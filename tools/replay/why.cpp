@@ -44,13 +44,22 @@ struct PartFacts {
   std::vector<std::vector<uint64_t>> values; // by run
   std::vector<uint8_t> before;               // memory; empty: it does not follow from before
   std::vector<core::ForcedBits> forced;
+  std::vector<OutsideWrite> outside;
   int64_t us = 0;
 };
+
+// Bits of a cell that are forced, and to what.
+struct Held {
+  uint64_t mask = 0, value = 0;
+  uint64_t in(uint64_t now) const { return (now & ~mask) | value; }
+};
+
+uint64_t maskOf(uint32_t bits) { return bits >= 64 ? ~uint64_t{0} : (uint64_t{1} << bits) - 1; }
 
 class Inquiry {
 public:
   Inquiry(Past& past, const WhyOptions& options)
-      : past_(past), options_(options), programNumber_(past.programNumber()) {}
+      : past_(past), options_(options), programNumber_(past.programNumber()), asked_(past.part()) {}
 
   Explanation run(const runtime::Ref& place) {
     const uint64_t here = past_.part();
@@ -59,8 +68,8 @@ public:
     Explanation explanation;
     explanation.reason = reasonOf(cell, here, {});
     addSkipped(cell, here, explanation);
+    addChange(cell, here, explanation);
     (void)past_.goTo(here);
-    explanation.toChange = std::move(toChange_);
     return explanation;
   }
 
@@ -163,6 +172,7 @@ private:
     facts->us = past_.instance().nowUs();
     const std::span<const core::ForcedBits> forced = past_.instance().forcedBits();
     facts->forced.assign(forced.begin(), forced.end());
+    facts->outside.assign(past_.outsideWrites().begin(), past_.outsideWrites().end());
     return *facts_.emplace(part, std::move(facts)).first->second;
   }
 
@@ -210,18 +220,28 @@ private:
     return reason;
   }
 
-  bool isForced(const Cell& cell, const PartFacts& facts) {
-    if (cell.slot.valid() || facts.forced.empty()) return false;
-    for (uint32_t i = 0; i < cell.bits.count; ++i) {
-      const uint32_t bit = cell.bits.first + i;
-      const core::Place at = past_.instance().memory().locateBit(cell.bits.space.index, bit / 8, bit % 8);
-      const bool held = !at.outside() && std::ranges::any_of(facts.forced, [&](const core::ForcedBits& forced) {
-        return forced.offset == at.offset() && (forced.mask >> at.bit() & 1) != 0;
-      });
-      if (held) return true;
-    }
-    return false;
+  // The byte of the block and the bit in it; nothing: it has none of its own.
+  std::optional<std::pair<uint32_t, uint32_t>> blockBit(const Cell& cell, uint32_t i) {
+    const uint32_t bit = cell.bits.first + i;
+    const core::Place at = past_.instance().memory().locateBit(cell.bits.space.index, bit / 8, bit % 8);
+    if (at.outside() || at.apart()) return std::nullopt;
+    return std::pair(at.offset(), at.bit());
   }
+  Held heldOf(const Cell& cell, std::span<const core::ForcedBits> forces) {
+    Held held;
+    if (cell.slot.valid() || forces.empty()) return held;
+    for (uint32_t i = 0; i < cell.bits.count; ++i) {
+      const auto at = blockBit(cell, i);
+      if (!at) continue;
+      for (const core::ForcedBits& forced : forces) {
+        if (forced.offset != at->first || (forced.mask >> at->second & 1) == 0) continue;
+        held.mask |= uint64_t{1} << i;
+        held.value |= uint64_t{forced.value >> at->second & 1u} << i;
+      }
+    }
+    return held;
+  }
+  bool isWhole(const Held& held, const Cell& cell) const { return held.mask == maskOf(cell.bits.count); }
 
   // The write before the moment by which the cell got the value that it has then; nothing: none in this part. `value`
   // becomes that value, `fromBefore` whether the cell had it when the part began.
@@ -229,8 +249,9 @@ private:
                                 bool& fromBefore) {
     std::optional<Within> last;
     const bool follows = !facts.before.empty() && !isTransient(cell);
-    uint64_t now = follows ? valueIn(facts.before, cell) : 0;
-    const uint64_t first = now;
+    const Held held = heldOf(cell, facts.forced);
+    const uint64_t first = follows ? valueIn(facts.before, cell) : 0;
+    uint64_t now = held.in(first);
     bool written = !follows;
     if (facts.flow)
       for (size_t r = 0; r < facts.flow->runs().size() && r <= moment.run; ++r) {
@@ -245,7 +266,7 @@ private:
             }
             continue;
           }
-          const uint64_t next = after(now, accesses[a], cell);
+          const uint64_t next = held.in(after(now, accesses[a], cell));
           if (next != now || written) last = Within{r, a};
           written = false;
           now = next;
@@ -259,6 +280,8 @@ private:
   Reason reasonOf(const Cell& cell, uint64_t part, const Within& moment, std::optional<uint64_t> seen = {}) {
     ++count_;
     const PartFacts& facts = factsOf(part);
+    if (const Held held = heldOf(cell, facts.forced); held.mask != 0 && isWhole(held, cell))
+      return forced(cell, held.value, part);
     uint64_t value = 0;
     bool fromBefore = false;
     const std::optional<Within> write = writeIn(facts, cell, moment, value, fromBefore);
@@ -269,30 +292,92 @@ private:
     } else if (seen && *seen != value) {
       return outside(cell, *seen, part, facts);
     }
-    if (isForced(cell, facts)) return forced(cell, value, part);
     if (write) return wrote(cell, value, part, facts, *write);
     if (!fromBefore) return outside(cell, value, part, facts);
     const std::optional<uint64_t> change = lastChanges({cell}, part - 1)[0];
-    if (!change) {
-      (void)past_.goTo(past_.firstPart());
-      return plain(cell, value, Reason::Kind::Before, past_.part(), past_.instance().nowUs());
+    if (!change) return unchanged(cell, value, part, moment);
+    Reason reason = changedIn(cell, value, *change);
+    if (reason.kind != Reason::Kind::Forced && reason.note.empty()) reason.note = heldSince(cell, *change, part);
+    return reason;
+  }
+
+  // It has the value since the recording began: what writes it again and again says why, if anything does.
+  Reason unchanged(const Cell& cell, uint64_t value, uint64_t part, const Within& moment) {
+    const PartFacts& facts = factsOf(part);
+    const std::optional<Within> again = lastWriteIn(facts, cell, moment);
+    Reason reason = again ? wrote(cell, value, part, facts, *again) : plain(cell, value, Reason::Kind::Before, part, 0);
+    reason.unchanged = true;
+    reason.part = past_.firstPart();
+    reason.us = timeOf(reason.part);
+    if (reason.note.empty()) reason.note = heldSince(cell, reason.part, part);
+    return reason;
+  }
+  // The last one before the moment, also of the value that it had.
+  static std::optional<Within> lastWriteIn(const PartFacts& facts, const Cell& cell, const Within& moment) {
+    std::optional<Within> last;
+    if (!facts.flow) return last;
+    for (size_t r = 0; r < facts.flow->runs().size() && r <= moment.run; ++r) {
+      const std::span<const Access> accesses = facts.flow->accesses(facts.flow->runs()[r]);
+      for (size_t a = 0; a < accesses.size() && (r < moment.run || a < moment.access); ++a)
+        if (accesses[a].writes && touches(accesses[a], cell)) last = Within{r, a};
     }
-    return changedIn(cell, value, *change);
+    return last;
   }
 
   // The cell got the value in this part, and had it at its end.
   Reason changedIn(const Cell& cell, uint64_t value, uint64_t part) {
     const PartFacts& facts = factsOf(part);
+    if (const Held held = heldOf(cell, facts.forced); held.mask != 0 && isWhole(held, cell))
+      return forced(cell, value, part);
     uint64_t then = 0;
     bool fromBefore = false;
     const std::optional<Within> write = writeIn(facts, cell, {}, then, fromBefore);
-    if (isForced(cell, facts)) return forced(cell, value, part);
     if (write && then == value) return wrote(cell, value, part, facts, *write);
     return outside(cell, value, part, facts);
   }
 
+  // ---- forces ----
+
+  // In the part that has led to `part`, and from when to when; the last force of it up to there.
+  struct Force {
+    uint64_t first = 0;           // the first part with it
+    std::optional<uint64_t> last; // nothing: it is still in effect
+    uint64_t value = 0;
+  };
+  std::optional<Force> lastForce(const Cell& cell, uint64_t upTo) {
+    std::optional<Force> force;
+    for (const ForceChange& change : past_.contents().forces) {
+      if (change.part >= upTo) break;
+      const Held held = heldOf(cell, change.bits);
+      const bool all = held.mask != 0 && isWhole(held, cell);
+      const bool goesOn = force && !force->last;
+      if (goesOn && (!all || held.value != force->value)) force->last = change.part;
+      if (all && (!goesOn || held.value != force->value)) force = Force{change.part + 1, std::nullopt, held.value};
+    }
+    return force;
+  }
+
   Reason forced(const Cell& cell, uint64_t value, uint64_t part) {
-    return plain(cell, value, Reason::Kind::Forced, part, factsOf(part).us);
+    const std::optional<Force> force = lastForce(cell, part);
+    const uint64_t since = force ? std::max(force->first, past_.firstPart()) : part;
+    Reason reason = plain(cell, value, Reason::Kind::Forced, since, timeOf(since));
+    reason.note = noteAt(reason.name, since);
+    std::optional<uint64_t> until;
+    for (const ForceChange& change : past_.contents().forces)
+      if (change.part >= part && !until && heldOf(cell, change.bits).mask == 0) until = change.part;
+    if (until && *until < asked_)
+      reason.note += fmt::format("{}the force was removed after scan {}, and nothing has written another value since",
+                                 reason.note.empty() ? "" : "; ", *until);
+    return reason;
+  }
+
+  // "" or that it was forced to the value that it has, after it got that in part `from`: what was written meanwhile had
+  // no effect.
+  std::string heldSince(const Cell& cell, uint64_t from, uint64_t part) {
+    const std::optional<Force> force = lastForce(cell, part);
+    if (!force || !force->last || *force->last <= from) return {};
+    return fmt::format("it was forced to {} from scan {} to scan {}; what rungs wrote meanwhile had no effect",
+                       shown(force->value, cell), std::max(force->first, from), *force->last);
   }
 
   // No rung wrote it in the part.
@@ -307,25 +392,51 @@ private:
         return reason;
       }
     }
-    Reason reason = plain(cell, value, Reason::Kind::Outside, part, facts.us);
-    reason.note = noteAt(reason.name, part);
+    Reason reason = plain(cell, value, writer(cell, facts), part, facts.us);
+    if (reason.kind == Reason::Kind::Outside) reason.note = noteAt(reason.name, part);
     return reason;
+  }
+  // Who wrote it, as far as the recording says.
+  Reason::Kind writer(const Cell& cell, const PartFacts& facts) {
+    Reason::Kind kind = cell.slot.valid() ? Reason::Kind::Outside : Reason::Kind::Control;
+    for (const OutsideWrite& write : facts.outside) {
+      bool touches = false;
+      for (uint32_t i = 0; i < cell.bits.count && !touches && !cell.slot.valid(); ++i) {
+        const auto at = blockBit(cell, i);
+        touches = at && at->first - write.offset < write.count;
+      }
+      if (!touches) continue;
+      switch (write.by) {
+      case OutsideWrite::By::Machine: kind = Reason::Kind::Machine; break;
+      case OutsideWrite::By::Client: kind = Reason::Kind::Client; break;
+      case OutsideWrite::By::Control: kind = Reason::Kind::Control; break;
+      case OutsideWrite::By::Any: kind = Reason::Kind::Outside; break;
+      }
+    }
+    return kind;
   }
   // What was copied at the beginning of a run is as before its first rung, what is copied at the end as after its last.
   Reason ofSource(const Cell& source, uint64_t part) { return reasonOf(source, part, {}); }
 
-  // The statements of a scenario that set values before the part: that of the cell, otherwise all if they are few.
+  // The statements of a scenario that did something before the part: that of the cell, otherwise all if they are few.
   std::string noteAt(const std::string& name, uint64_t part) const {
     constexpr size_t kFew = 3;
     const std::string symbol = " " + name.substr(0, name.find(' ')) + " ";
-    std::vector<std::string> sets;
+    const auto acts = [](std::string_view text) {
+      constexpr std::string_view kActing[] = {"set ", "block ", "event ", "plc ", "reply "};
+      return std::ranges::any_of(kActing, [&](std::string_view word) {
+        const size_t at = text.find(word);
+        return at == 0 || (at != std::string_view::npos && text[at - 1] == ' ');
+      });
+    };
+    std::vector<std::string> acting;
     for (const Landmark& note : past_.contents().landmarks) {
       if (note.kind != Landmark::Kind::Note || note.part + 1 != part || note.text.find("expect") != std::string::npos)
         continue;
       if (note.text.find(symbol) != std::string::npos) return note.text;
-      if (note.text.find("set ") != std::string::npos) sets.push_back(note.text);
+      if (acts(note.text)) acting.push_back(note.text);
     }
-    return sets.size() > kFew ? std::string() : fmt::format("{}", fmt::join(sets, "; "));
+    return acting.size() > kFew ? std::string() : fmt::format("{}", fmt::join(acting, "; "));
   }
 
   bool visit(const Cell& cell, uint64_t part) {
@@ -356,18 +467,26 @@ private:
     if (run.faulted || facts.values[write.run].empty()) return reason;
     const RungReasons reasons(rung, facts.values[write.run]);
     const std::vector<Leaf> leaves = reasons.of(access.operation);
-    if (count_ == 1 && cell.bits.count == 1 && !cell.slot.valid())
-      noteChange(reasons, access.operation, rung, facts, run);
     follow(reason, leaves, part, facts, write.run);
     return reason;
   }
 
-  void noteChange(const RungReasons& reasons, uint32_t store, const ir::Rung& rung, const PartFacts& facts,
-                  const RungFlow& run) {
-    for (const Leaf& leaf : reasons.toChange(store)) {
-      const auto [cell, value] = cellOf(leaf, rung, facts, run);
-      toChange_.push_back(cell ? fmt::format("{} = {}", nameOf(*cell), value == 0 ? 1 : 0)
-                               : fmt::format("the result of line {}", ir::lineOf(rung, rung.ops[leaf.operation])));
+  // Of the rung that wrote the bit last in the part of the question; if none did, of the one that gave it the value.
+  void addChange(const Cell& cell, uint64_t part, Explanation& explanation) {
+    if (cell.bits.count != 1 || explanation.reason.kind != Reason::Kind::Rung) return;
+    std::optional<Within> write = lastWriteIn(factsOf(part), cell, {});
+    if (!write && explanation.skipped.empty() && part != explanation.reason.part)
+      write = lastWriteIn(factsOf(part = explanation.reason.part), cell, {});
+    const PartFacts& facts = factsOf(part);
+    if (!write || facts.values[write->run].empty()) return;
+    const RungFlow& run = facts.flow->runs()[write->run];
+    const ir::Rung& rung = past_.flowEngine().rung(run.lowered);
+    const RungReasons reasons(rung, facts.values[write->run]);
+    for (const Leaf& leaf : reasons.toChange(facts.flow->accesses(run)[write->access].operation)) {
+      const auto [read, value] = cellOf(leaf, rung, facts, run);
+      explanation.toChange.push_back(
+          read ? fmt::format("{} = {}", nameOf(*read), value == 0 ? 1 : 0)
+               : fmt::format("the result of line {}", ir::lineOf(rung, rung.ops[leaf.operation])));
     }
   }
 
@@ -441,9 +560,11 @@ private:
     add(operands, leaves, facts, runNumber);
     if (!operands.hasNames()) addDecider(operands, facts, runNumber);
     findSince(operands.all, part, facts);
-    // The one that changed last is the cause of the change; the chain continues there.
+    // Of those that have changed, what has a name comes first, and of these the one that changed last: it is the cause
+    // of the change, and the chain continues there.
     std::ranges::stable_sort(operands.all, [](const Operand& a, const Operand& b) {
-      return std::tuple(a.rank, a.since, a.leaf.alone) > std::tuple(b.rank, b.since, b.leaf.alone);
+      return std::tuple(a.since.has_value(), a.rank, a.since, a.leaf.alone) >
+             std::tuple(b.since.has_value(), b.rank, b.since, b.leaf.alone);
     });
     for (const Operand& operand : operands.all) {
       const uint64_t since = operand.since.value_or(past_.firstPart());
@@ -507,7 +628,7 @@ private:
     };
     for (const uint32_t writer : uses().writersOf(cell.bits).certain) {
       if (ran(writer)) continue;
-      std::string text = fmt::format("{} did not run in this part", runtime::rungText(program(), writer));
+      std::string text = fmt::format("{} did not run in this scan", runtime::rungText(program(), writer));
       for (const uint32_t decider : uses().decidersOf(writer))
         if (ran(decider)) {
           text += fmt::format("; {} jumped over it", runtime::rungText(program(), decider));
@@ -520,18 +641,20 @@ private:
   Past& past_;
   const WhyOptions& options_;
   const uint32_t programNumber_; // changes of the program end the search
+  const uint64_t asked_;         // the part of the question
   std::map<uint64_t, std::unique_ptr<PartFacts>> facts_;
   std::vector<std::pair<Cell, uint64_t>> visited_;
-  std::vector<std::string> toChange_;
   size_t count_ = 0;
 };
 
 // ---- text --------------------------------------------------------------------------------------------------------
 
 std::string sinceText(const Reason& reason) {
-  if (reason.kind == Reason::Kind::Before) return "unchanged since the recording began";
+  if (reason.kind == Reason::Kind::Before || reason.unchanged) return "unchanged since the recording began";
   return "since " + scenario::scanText(reason.part, reason.us);
 }
+
+} // namespace
 
 std::string kindText(const Reason& reason) {
   switch (reason.kind) {
@@ -539,7 +662,10 @@ std::string kindText(const Reason& reason) {
     return fmt::format("written by {}{}", reason.rung, reason.computed ? ", at a computed address" : "");
   case Reason::Kind::Copy: return "copied when a task began or ended";
   case Reason::Kind::Outside: return "written from outside: by the machine, the control or a person";
-  case Reason::Kind::Forced: return "forced";
+  case Reason::Kind::Machine: return "an input, written by the machine";
+  case Reason::Kind::Client: return "written by a person or another program, through the host";
+  case Reason::Kind::Control: return "written by the control or the machine";
+  case Reason::Kind::Forced: return "forced by a person";
   case Reason::Kind::Start: return "as the program was started, or a state loaded";
   case Reason::Kind::Before:
   case Reason::Kind::Clock:
@@ -548,6 +674,8 @@ std::string kindText(const Reason& reason) {
   }
   return {};
 }
+
+namespace {
 
 std::string operandText(const Reason& reason) {
   if (reason.kind == Reason::Kind::Clock || reason.kind == Reason::Kind::Answer) return reason.name;
@@ -567,8 +695,8 @@ void put(const Reason& reason, std::string& text) {
   }
 }
 
-constexpr std::string_view kKindNames[] = {"rung",   "copy",  "outside", "forced", "start",
-                                           "before", "clock", "answer",  "kept"}; // by Reason::Kind
+constexpr std::string_view kKindNames[] = {"rung",  "copy",   "outside", "machine", "client", "control", "forced",
+                                           "start", "before", "clock",   "answer",  "kept"}; // by Reason::Kind
 
 nlohmann::json jsonOfReason(const Reason& reason) {
   nlohmann::json json{{"kind", kKindNames[static_cast<size_t>(reason.kind)]},
@@ -578,6 +706,7 @@ nlohmann::json jsonOfReason(const Reason& reason) {
                       {"us", reason.us}};
   if (reason.kind == Reason::Kind::Rung)
     json.update({{"rung", reason.rung}, {"file", reason.file}, {"line", reason.line}});
+  if (reason.unchanged) json["unchanged"] = true;
   if (reason.alone) json["alone"] = true;
   if (reason.isIndex) json["index"] = true;
   if (reason.computed) json["computed"] = true;

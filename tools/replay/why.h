@@ -18,6 +18,9 @@ struct Reason {
     Rung,    // a rung wrote it
     Copy,    // a task has copied it, at its beginning or end
     Outside, // the machine, the control or a person wrote it
+    Machine, // the host wrote it as an input
+    Client,  // a person or another program wrote it, through the host
+    Control, // the control or the machine wrote it, within the part
     Forced,  // a person holds it
     Start,   // it is so since the program was started, or a state was loaded
     Before,  // it is so since the recording began
@@ -38,6 +41,7 @@ struct Reason {
   bool alone = false;       // in the rung above: it decided alone
   bool isIndex = false;     // in the rung above: it determined the address
   bool computed = false;    // written at a computed address
+  bool unchanged = false;   // of a Rung: it has the value since the recording began, and is written again and again
   std::string note;         // such as the statement of a scenario that set it
   // What decided; the one that changed last comes first, and the chain continues with it.
   std::vector<Reason> because;
@@ -45,7 +49,7 @@ struct Reason {
 
 struct Explanation {
   Reason reason;
-  // For a bit: what would have to be different in the rung that wrote it last. Empty: unknown.
+  // For a bit: what would have to be different for the rung that wrote it last. Empty: unknown.
   std::vector<std::string> toChange;
   // Rungs that write the place and did not run in the part, and which rung jumped over each.
   std::vector<std::string> skipped;
@@ -62,6 +66,8 @@ Explanation why(Past& past, const runtime::Ref& place, const WhyOptions& options
 // Each write of the place in the part that has led to the present position: "rung 3 "title", main.pmc:12: 1".
 std::vector<std::string> writesOf(Past& past, const runtime::Ref& place);
 
+// What gave the value: "written by rung 3 …", "forced by a person"; "" if the chain says nothing about it.
+std::string kindText(const Reason& reason);
 // As lines of text; the first is that of the value itself.
 std::string textOf(const Explanation& explanation);
 std::string jsonOf(const Explanation& explanation);

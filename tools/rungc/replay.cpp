@@ -63,14 +63,14 @@ std::optional<replay::Recording> recordingOf(const std::string& file, int& statu
 
 std::optional<replay::Recording> openRecording(ReplayOptions& options, int& status) {
   if (options.file.ends_with(".scn")) return recordingOf(options.file, status);
-  std::vector<std::unique_ptr<compiler::Compiled>> known;
+  std::vector<std::shared_ptr<const compiler::Compiled>> known;
   SourceManager sources;
   if (!options.source.files.empty()) {
     compiler::CompileRequest request;
     request.marks = request.keepBuilt = true;
     std::optional<compiler::Compiled> compiled = compileSources(sources, options.source, std::move(request), status);
     if (!compiled) return std::nullopt;
-    known.push_back(std::make_unique<compiler::Compiled>(std::move(*compiled)));
+    known.push_back(std::make_shared<compiler::Compiled>(std::move(*compiled)));
   }
   Result<replay::Recording> recording = replay::readRecording(options.file, std::move(known));
   if (!recording.ok()) {
@@ -82,6 +82,8 @@ std::optional<replay::Recording> openRecording(ReplayOptions& options, int& stat
 }
 
 int runAsked(const ReplayOptions& options, replay::Past& past, replay::Console& console) {
+  int status = kOk;
+  const uint64_t here = past.part();
   for (const std::string& name : options.show) {
     const Result<std::string> line = console.shown(name);
     if (!line.ok()) return usageError(line.error());
@@ -96,7 +98,8 @@ int runAsked(const ReplayOptions& options, replay::Past& past, replay::Console& 
       if (const std::string problem = past.goTo(part); !problem.empty()) return environmentError(problem);
       fmt::print("{}\n", replay::positionText(past));
     }
-    if (found.value().empty()) return kWrong;
+    if (const std::string problem = past.goTo(here); !problem.empty()) return environmentError(problem);
+    if (found.value().empty()) status = kWrong;
   }
   if (!options.why.empty()) {
     const std::string words[] = {options.why};
@@ -105,12 +108,23 @@ int runAsked(const ReplayOptions& options, replay::Past& past, replay::Console& 
     fmt::print("{}\n", text.value());
   }
   if (!options.exported.empty()) {
-    const std::string problem = console.exportTo(options.exported, options.from.value_or(past.firstPart()),
-                                                 options.to.value_or(past.contents().parts), options.watch);
-    if (!problem.empty()) return usageError(problem);
+    const Result<std::vector<std::string>> lacks =
+        console.exportTo(options.exported, options.from.value_or(past.firstPart()),
+                         options.to.value_or(past.contents().parts), options.watch);
+    if (!lacks.ok()) return usageError(lacks.error());
     fmt::print("wrote {}\n", options.exported);
+    for (const std::string& lack : lacks.value()) fmt::print(stderr, "rungc: {}: {}\n", options.exported, lack);
+    if (!lacks.value().empty()) status = kWrong;
   }
-  return kOk;
+  return status;
+}
+
+// Machine code is there at once where it pays: in a search of many scans.
+replay::PastOptions pastOptions(const ReplayOptions& options, const replay::Recording& recording) {
+  constexpr uint64_t kMany = 20'000;
+  replay::PastOptions past;
+  if (!options.find.empty() && replay::Contents(recording).parts > kMany) past.engine = compiler::EngineKind::Jit;
+  return past;
 }
 
 int runReplay(ReplayOptions& options) {
@@ -118,7 +132,7 @@ int runReplay(ReplayOptions& options) {
   int status = kOk;
   const std::optional<replay::Recording> recording = openRecording(options, status);
   if (!recording) return status;
-  Result<std::unique_ptr<replay::Past>> past = replay::Past::open(*recording, {});
+  Result<std::unique_ptr<replay::Past>> past = replay::Past::open(*recording, pastOptions(options, *recording));
   if (!past.ok()) return environmentError(fmt::format("{}: {}", options.file, past.error()));
   const uint64_t first = options.at.value_or(past.value()->contents().parts);
   if (const std::string problem = past.value()->goTo(first); !problem.empty()) return usageError("--at: " + problem);

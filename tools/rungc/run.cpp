@@ -16,6 +16,7 @@
 #include "rtlib/load/so_engine.h"
 #include "rtlib/nc/config_key.h"
 #include "tools/replay/record_run.h"
+#include "tools/replay/session_past.h"
 #include "tools/rungc/commands.h"
 #include "tools/rungc/retained_files.h"
 #include "tools/rungc/scenarios.h"
@@ -203,6 +204,9 @@ private:
     const bool asked = options_.prompt || options_.web || !options_.scenarioFile.empty();
     explainer_ = std::make_unique<scenario::Explainer>(session_, asked ? first().uses() : nullptr);
     session_.addObserver(*explainer_);
+    if (!asked) return kOk;
+    past_ = std::make_unique<replay::SessionPast>(session_, [this] { return first().wanted(); }, recorder_.get());
+    session_.addObserver(*past_);
     return kOk;
   }
 
@@ -234,7 +238,9 @@ private:
   // Executes inputs, then the scenario, then --scans and --for, then the prompt.
   int drive() {
     catchSignals();
-    scenario::Console console(session_, watch_, recording_, *explainer_, print_);
+    scenario::Console console(
+        session_, watch_, recording_, *explainer_, [this](const std::string& name) { return past_->why(name); },
+        print_);
     if (const int status = setInputs(); status != kOk) return status;
     int status = runScenario(console);
     if (options_.web) return status == kOk ? showPage() : status;
@@ -306,7 +312,7 @@ private:
     session_.setUnattended();
     session_.setInterrupt({});
     const std::string title = options_.source.project ? options_.source.project->name : "";
-    return serveSession(title, options_.listen, *first().compiled, session_, *explainer_, *first().flow,
+    return serveSession(title, options_.listen, *first().compiled, session_, *past_, *first().flow,
                         [] { return gSignal != 0; });
   }
 
@@ -400,6 +406,7 @@ private:
   scenario::Watch watch_{print_};
   std::unique_ptr<RetainedFiles> retained_;
   std::unique_ptr<replay::SessionRecorder> recorder_; // null: nothing is recorded
+  std::unique_ptr<replay::SessionPast> past_;         // null: nobody asks
   std::unique_ptr<scenario::Trace> trace_;
   std::unique_ptr<scenario::Explainer> explainer_; // set once the session has started
 };
@@ -427,8 +434,8 @@ std::optional<Program> compileProgram(const RunOptions& options, const SourceOpt
   }
   SourceManager sources;
   compiler::CompileRequest request;
-  request.marks = options.web || !options.record.empty();
-  request.keepBuilt = request.marks || options.prompt || !options.scenarioFile.empty(); // for forces
+  const bool asked = options.prompt || options.web || !options.scenarioFile.empty();
+  request.marks = request.keepBuilt = asked || !options.record.empty(); // for forces, and to play it again
   if (options.scenario.periodUs > 0) request.options.config["period_us"] = std::to_string(options.scenario.periodUs);
   Program program;
   program.compiled = compileChecked(sources, source, request, status);

@@ -53,11 +53,11 @@ std::string listenProblem(const std::string& listen) {
 }
 
 int serveSession(const std::string& title, const std::string& listen, const compiler::Compiled& compiled,
-                 scenario::Session& session, const scenario::Explainer& explainer, replay::FlowEngine& engine,
+                 scenario::Session& session, replay::SessionPast& past, replay::FlowEngine& engine,
                  const std::function<bool()>& ended) {
   const Result<web::ShownProgram> program = shownProgram(title, compiled);
   if (!program.ok()) return environmentError(program.error());
-  web::SessionSource source(session, explainer, program.value(), engine);
+  web::SessionSource source(session, past, program.value(), engine);
   return serve(listen, program.value(), source, ended);
 }
 

@@ -5,8 +5,8 @@
 
 #include "compiler/compile.h"
 #include "tools/replay/past.h"
+#include "tools/replay/session_past.h"
 #include "tools/rungc/commands.h"
-#include "tools/scenario/explain.h"
 #include "tools/scenario/session.h"
 
 namespace rung::rungc {
@@ -21,7 +21,7 @@ std::string listenProblem(const std::string& listen);
 
 // The session has started; its only engine is that of `engine`.
 int serveSession(const std::string& title, const std::string& listen, const compiler::Compiled& compiled,
-                 scenario::Session& session, const scenario::Explainer& explainer, replay::FlowEngine& engine,
+                 scenario::Session& session, replay::SessionPast& past, replay::FlowEngine& engine,
                  const std::function<bool()>& ended);
 int servePast(const std::string& title, const std::string& listen, replay::Past& past,
               const std::function<bool()>& ended);

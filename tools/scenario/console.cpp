@@ -62,7 +62,7 @@ std::span<const Console::Command> Console::commands() {
        Words::Values,
        &Console::watch},
       {{"unwatch", "unwatch NAME…", "stops watching them"}, Words::Values, &Console::unwatch},
-      {{"why", "why NAME", "the rungs that write it, and what they read"}, Words::Value, &Console::why},
+      {{"why", "why NAME", "the chain from the value back to what it came from"}, Words::Value, &Console::why},
       {{"forces", "forces", "lists the forced variables"}, Words::Other, &Console::forces},
       {{"messages", "messages", "the messages on the screen"}, Words::Other, &Console::messages},
       {{"save", "save FILE.scn", "saves the session as a scenario"}, Words::File, &Console::save},
@@ -80,9 +80,9 @@ std::vector<std::string> Console::words() {
   return words;
 }
 
-Console::Console(Session& session, Watch& watch, Recording& recording, const Explainer& explainer, Print print)
-    : session_(session), watch_(watch), recording_(recording), explainer_(explainer), print_(std::move(print)),
-      completion_(session, words()) {}
+Console::Console(Session& session, Watch& watch, Recording& recording, const Explainer& explainer, Why why, Print print)
+    : session_(session), watch_(watch), recording_(recording), explainer_(explainer), why_(std::move(why)),
+      print_(std::move(print)), completion_(session, words()) {}
 
 std::string Console::prompt() const {
   return fmt::format("scan {}, {:.3f} s> ", session_.scans(), static_cast<double>(session_.nowUs()) / 1e6);
@@ -264,10 +264,9 @@ Outcome Console::forces(std::span<const std::string>) {
 
 Outcome Console::why(std::span<const std::string> words) {
   if (words.size() != 1) return fail("expected one name (the command is: why NAME)");
-  const auto reading = readName(session_.instance(), session_.nc(), words[0], false);
-  if (!reading.ok()) return fail(reading.error());
-  if (!explainer_.knowsProgram()) return fail("a shared object does not say which rungs write a name; run its sources");
-  print_(fmt::format("{} is {}{}", words[0], show(reading.value()), explainer_.why(words[0])));
+  const Result<std::string> text = why_(words[0]);
+  if (!text.ok()) return fail(text.error());
+  print_(text.value());
   return Outcome::Done;
 }
 

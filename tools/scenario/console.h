@@ -137,7 +137,9 @@ std::vector<std::string> typedWords(std::string_view line);
 class Console final : public Interpreter {
 public:
   // All references must outlive the console.
-  Console(Session& session, Watch& watch, Recording& recording, const Explainer& explainer, Print print);
+  // `why`: the chain from the value of a name back to what it came from, or what is wrong.
+  using Why = std::function<Result<std::string>(const std::string& name)>;
+  Console(Session& session, Watch& watch, Recording& recording, const Explainer& explainer, Why why, Print print);
 
   // Reports a fault, too.
   Outcome execute(std::string_view line) override;
@@ -182,7 +184,8 @@ private:
   Session& session_;
   Watch& watch_;
   Recording& recording_;
-  const Explainer& explainer_;
+  const Explainer& explainer_; // of expectations that fail
+  Why why_;
   Print print_;
   Completion completion_;
   bool faultReported_ = false;

@@ -1,5 +1,5 @@
-// Explains the value of a name: the rungs that write it, what decides whether they run, and every name that they read
-// with its value and the scan of its last change.
+// Explains the value of a name in an expectation that failed: the rungs that write it, what decides whether they run,
+// and every name that they read with its value and the scan of its last change.
 #pragma once
 #include <optional>
 #include <string>
@@ -29,7 +29,6 @@ public:
     since_ = "the snapshot was restored after ";
   }
 
-  bool knowsProgram() const { return uses_ != nullptr; }
   // The explanation, each line preceded by a line break; "" for a place in the NC and not in the program's memory.
   // `wantReal`: explains the real number that begins there.
   std::string why(std::string_view name, bool wantReal = false) const;

@@ -94,11 +94,9 @@ Result<std::unique_ptr<Trace>> Trace::open(const std::string& path, const std::v
   return trace;
 }
 
-void Trace::replaced(const Session& session, const NextProgram&) {
-  for (Source& source : sources_) source.value.locate(session.instance(), session.nc());
+void Trace::relocate(const runtime::Instance& instance, const sim::SimulatedNc& nc) {
+  for (Source& source : sources_) source.value.locate(instance, nc);
 }
-
-void Trace::restored(const Session& session) { restoredUs_ = sampledUs_ - session.nowUs(); }
 
 void Trace::sample(const runtime::Instance& instance, const sim::SimulatedNc& nc, uint64_t scan) {
   readings_.clear();

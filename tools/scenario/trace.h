@@ -55,9 +55,11 @@ public:
 
   void scanned(const Session& session) override { sample(session.instance(), session.nc(), session.scans()); }
   // Names that the new program does not have, or has with another kind of value, have no values from now on.
-  void replaced(const Session& session, const NextProgram& next) override;
+  void replaced(const Session& session, const NextProgram&) override { relocate(session.instance(), session.nc()); }
+  void relocate(const runtime::Instance& instance, const sim::SimulatedNc& nc);
   // Times continue in the file.
-  void restored(const Session& session) override;
+  void restored(const Session& session) override { clockSet(session.nowUs()); }
+  void clockSet(int64_t us) { restoredUs_ = sampledUs_ - us; }
   void sample(const runtime::Instance& instance, const sim::SimulatedNc& nc, uint64_t scan);
   // Ends the file; "" or why it could not be written.
   std::string finish();

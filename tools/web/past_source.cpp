@@ -81,10 +81,7 @@ void PastSource::addSteps(const replay::Reason& reason, uint32_t depth, std::vec
   step.depth = depth;
   step.scan = reason.part;
   step.text = fmt::format("{} = {}", reason.name, reason.value);
-  if (!reason.rung.empty()) step.text += ": " + reason.rung;
-  if (reason.kind == Kind::Outside) step.text += ": from outside";
-  if (reason.kind == Kind::Forced) step.text += ": forced";
-  if (reason.kind == Kind::Start) step.text += ": since the start";
+  if (const std::string kind = replay::kindText(reason); !kind.empty()) step.text += ": " + kind;
   if (!reason.note.empty()) step.text += ": " + reason.note;
   if (reason.lowered != replay::kNone) {
     const replay::Elements& elements = past_.flowEngine().elements();

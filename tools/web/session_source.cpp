@@ -56,9 +56,9 @@ void observeForces(scenario::Session& session, replay::FlowEngine& engine) {
   static_cast<ir::InterpEngine&>(engine.engine()).setObserver(std::make_unique<HeldBits>(session.instance()));
 }
 
-SessionSource::SessionSource(scenario::Session& session, const scenario::Explainer& explainer,
-                             const ShownProgram& program, replay::FlowEngine& engine)
-    : session_(session), explainer_(explainer), engine_(engine), states_(engine, program),
+SessionSource::SessionSource(scenario::Session& session, replay::SessionPast& past, const ShownProgram& program,
+                             replay::FlowEngine& engine)
+    : session_(session), past_(past), engine_(engine), states_(engine, program),
       places_(program, session.instance(), session.nc(), states_) {
   keepMoment();
 }
@@ -199,9 +199,9 @@ Result<std::string> SessionSource::carryOut(const Order& order) {
 }
 
 Result<Why> SessionSource::explain(const std::string& name) {
-  const Result<scenario::Reading> reading = scenario::readName(session_.instance(), session_.nc(), name, false);
-  if (!reading.ok()) return reading.failure();
-  return Why{fmt::format("{} = {}{}", name, scenario::show(reading.value()), explainer_.why(name)), {}};
+  Result<std::string> text = past_.why(name);
+  if (!text.ok()) return text.failure();
+  return Why{std::move(text).value(), {}};
 }
 
 } // namespace rung::web

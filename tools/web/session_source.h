@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "tools/replay/flow.h"
-#include "tools/scenario/explain.h"
+#include "tools/replay/session_past.h"
 #include "tools/scenario/session.h"
 #include "tools/web/paced_source.h"
 
@@ -20,7 +20,7 @@ void observeForces(scenario::Session& session, replay::FlowEngine& engine);
 class SessionSource final : public PacedSource {
 public:
   // All arguments must outlive it. The session has started; observeForces was called with both.
-  SessionSource(scenario::Session& session, const scenario::Explainer& explainer, const ShownProgram& program,
+  SessionSource(scenario::Session& session, replay::SessionPast& past, const ShownProgram& program,
                 replay::FlowEngine& engine);
 
   bool isLive() const override { return true; }
@@ -60,7 +60,7 @@ private:
   std::vector<ForcedCell> forces();
 
   scenario::Session& session_;
-  const scenario::Explainer& explainer_;
+  replay::SessionPast& past_;
   replay::FlowEngine& engine_;
   ElementStates states_;
   const NamePlaces places_;

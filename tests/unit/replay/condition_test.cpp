@@ -19,6 +19,7 @@ protected:
         block_(program_.program().memory_size + 64) {}
 
   Result<runtime::Ref> locate(std::string_view name) {
+    if (const auto constant = constants_.find(name); constant != constants_.end()) return constant->second;
     const auto place = nc::resolve(program_.program(), name);
     if (place) return *place;
     return failure("no " + std::string(name));
@@ -35,6 +36,8 @@ protected:
   }
 
   testing::CompiledProgram program_;
+  std::map<std::string, runtime::Ref, std::less<>> constants_ = {
+      {"TITLE", {.width = 8, .kind = runtime::RefKind::Text}}};
   std::vector<uint8_t> block_;
 };
 
@@ -48,6 +51,39 @@ TEST_F(Conditions, CompareAndCombine) {
     EXPECT_TRUE(holds(text)) << text;
   for (const char* text : {"not GO", "GO = 0", "D100:2 > 0", "D10 < 5", "GO and D10 = 4", "X0.1", "rises GO"})
     EXPECT_FALSE(holds(text)) << text;
+}
+
+// Not only the bits that the narrower side has.
+TEST_F(Conditions, CompareWholeValues) {
+  set("GO", 1);
+  set("D10", 5);
+  set("D100:2", 261); // 0x105
+  set("D20", 0xFF);
+  set("D200:2", 0xFFFF);
+  for (const char* text : {"D10 != 261", "261 != D10", "D10 != D100:2", "GO != 3", "D100:2 = 261", "D20 = 255",
+                           "D20 = -1", "D20 = D200:2", "D10 = 5.0"})
+    EXPECT_TRUE(holds(text)) << text;
+  for (const char* text :
+       {"D10 = 261", "261 = D10", "D10 = D100:2", "D100:2 = D10", "GO = 3", "GO = 257", "D20 = 65535", "D10 = 5.5"})
+    EXPECT_FALSE(holds(text)) << text;
+}
+
+TEST_F(Conditions, ConstantsOfTheProgramHaveTheirValues) {
+  runtime::Ref nine;
+  nine.kind = runtime::RefKind::Constant;
+  nine.width = 64;
+  nine.constant = 9;
+  constants_["NINE"] = nine;
+  set("D10", 9);
+  for (const char* text : {"D10 = NINE", "NINE", "NINE = 9", "NINE > 8.5", "D10 <= NINE"})
+    EXPECT_TRUE(holds(text)) << text;
+  set("D10", 0);
+  for (const char* text : {"D10 = NINE", "NINE = 0", "changes NINE"}) EXPECT_FALSE(holds(text)) << text;
+}
+
+// A name that reads like a number that is none.
+TEST_F(Conditions, NamesAreNoNumbers) {
+  for (const char* text : {"inf", "nan", "0x", "-"}) EXPECT_EQ(parse(text).error(), "no " + std::string(text));
 }
 
 TEST_F(Conditions, EdgesCompareWithTheCallBefore) {
@@ -78,6 +114,10 @@ TEST_F(Conditions, SaysWhatIsWrong) {
       {"(GO", "a bracket is not closed"},
       {"GO GO", "expected and, or, a comparison or the end, found 'GO'"},
       {"\"GO", "the quotation mark is not closed"},
+      {"GO and", "expected a name or a number at the end"},
+      {"rises", "expected a name or a number at the end"},
+      {"TITLE = 3", "TITLE is a text, and conditions compare numbers"},
+      {std::string(100'000, '('), "it is nested too deeply"},
   };
   for (const auto& [text, problem] : cases) {
     const Result<Condition> condition = parse(text);

@@ -13,6 +13,7 @@
 #include "ir/support/diag_render.h"
 #include "ir/support/temporary_folder.h"
 #include "rung/runtime.hpp"
+#include "tests/unit/replay/recorded_host.h"
 #include "tools/replay/console.h"
 #include "tools/replay/past.h"
 #include "tools/replay/record_run.h"
@@ -214,13 +215,13 @@ TEST(ScenarioFile, DoesTheSame) {
   ASSERT_TRUE(recorded.ok());
   const auto past = open(recorded.value().recording);
   const TemporaryFolder folder;
-  const Result<std::string> text = scenarioOf(*past, folder / "panel.scn", past->firstPart(), 150);
+  const Result<ScenarioText> text = scenarioOf(*past, folder / "panel.scn", past->firstPart(), 150);
   ASSERT_TRUE(text.ok()) << text.error();
-  EXPECT_THAT(text.value(), HasSubstr("expect "));
-  EXPECT_THAT(text.value(), HasSubstr("set "));
-  const scenario::Scenario scenario = scenario::parse(folder / "panel.scn", text.value());
+  EXPECT_THAT(text.value().text, HasSubstr("expect "));
+  EXPECT_THAT(text.value().text, HasSubstr("set "));
+  const scenario::Scenario scenario = scenario::parse(folder / "panel.scn", text.value().text);
   const scenario::RunResult result = scenario::run(scenario, {.engines = {compiler::EngineKind::Interp}});
-  EXPECT_TRUE(result.passed) << text.value() << [&] {
+  EXPECT_TRUE(result.passed) << text.value().text << [&] {
     std::string problems = result.environment;
     for (const scenario::Problem& problem : result.problems) problems += scenario::textOf(problem) + "\n";
     return problems;
@@ -230,61 +231,17 @@ TEST(ScenarioFile, DoesTheSame) {
 
 // ---- a host ------------------------------------------------------------------------------------------------------
 
-constexpr const char* kProgram = "dialect gsk\nsymbol GO X0.0\nsymbol LAMP Y0.0\nsymbol LATE Y0.1\nsymbol COUNT D100\n"
-                                 "FUNC END1\n; lamp\nLD GO\nANI R0.0\nOUT LAMP\n"
-                                 "; late\nLD LAMP\nFUNC TMRB\nPRM 1\nPRM 40\nOUT LATE\nFUNC END2\n";
-
-struct Program {
-  explicit Program(const std::string& text) {
-    Diagnostics diagnostics;
-    const FileId files[] = {sources.addBuffer("t.pmc", text)};
-    compiler::CompileRequest request;
-    request.marks = request.keepBuilt = true;
-    auto result = compiler::compile(sources, files, request, diagnostics);
-    EXPECT_TRUE(result) << renderText(diagnostics, sources);
-    compiled = std::make_unique<compiler::Compiled>(std::move(*result));
-    engine = std::move(compiler::makeEngine(compiler::EngineKind::Interp, *compiled, {})).value();
-  }
-  rung::Image image() const { return rung::Image::adopt(engine->program(), engine->context()); }
-  SourceManager sources;
-  std::unique_ptr<compiler::Compiled> compiled;
-  std::unique_ptr<runtime::Engine> engine;
-};
-
-struct Host : Program {
-  explicit Host(const std::string& folder) : Program(kProgram) {
-    const rung::Image image = this->image();
-    rung::Instance instance(image);
-    const rung_recording_options options{.size = sizeof options, .state_ms = 2000, .folder = folder.c_str()};
-    EXPECT_EQ(rung_instance_record(instance.handle(), &options), RUNG_OK) << rung_error_text();
-    uint8_t go = 0;
-    instance.bindInput("GO", go);
-    instance.powerOn(rung::Power::Cold);
-    for (int scan = 0; scan < kScans; ++scan) {
-      go = scan / 100 % 2;
-      EXPECT_EQ(instance.scan(), RUNG_OK);
-      lamps.push_back(static_cast<uint8_t>(instance.read<int64_t>(instance.find("LAMP"))));
-      lates.push_back(static_cast<uint8_t>(instance.read<int64_t>(instance.find("LATE"))));
-    }
-    EXPECT_EQ(rung_instance_record(instance.handle(), nullptr), RUNG_OK);
-  }
-  static constexpr int kScans = 1500;
-  std::vector<uint8_t> lamps, lates;
-};
-
 TEST(HostRecording, IsPlayedWithItsControlFromAnyPlace) {
   const TemporaryFolder folder;
-  Host host(folder / "recording");
-  std::vector<std::unique_ptr<compiler::Compiled>> known;
-  known.push_back(std::move(host.compiled));
-  const Result<Recording> recording = readRecording(folder / "recording", std::move(known));
+  RecordedHost host(folder / "recording");
+  const Result<Recording> recording = readRecording(folder / "recording", {host.program.compiled});
   ASSERT_TRUE(recording.ok()) << recording.error();
   ASSERT_EQ(recording.value().mode, runtime::RecordingMode::Control);
   Result<std::unique_ptr<Past>> opened =
       Past::open(recording.value(), {.engine = compiler::EngineKind::Interp, .keptEvery = 16});
   ASSERT_TRUE(opened.ok()) << opened.error();
   Past& past = *opened.value();
-  ASSERT_EQ(past.contents().parts, uint64_t{Host::kScans});
+  ASSERT_EQ(past.contents().parts, host.lamps.size());
   (void)played(past);
   ASSERT_EQ(differencesOf(past), "") << "before any seeking";
   std::string text;

@@ -334,8 +334,11 @@ bool PlcHost::beginStep(int64_t ns, bool reset) noexcept {
   wasReset_ = resets;
   commands_.take([this](Command& command) { return execute(command); });
   const State state = state_.load(std::memory_order_acquire);
-  if (state == State::Stopped && asked) state_.store(State::Restarting, std::memory_order_release);
-  if (state == State::Stopped) plc_.sample();
+  if (state == State::Stopped) {
+    functions_->age(ns);
+    plc_.sample();
+    if (asked) state_.store(State::Restarting, std::memory_order_release); // from now on `serve` has all of them
+  }
   if (state != State::Running) return false;
   if (!map_.axisGroups.empty()) plc_.serving(live_.served.load(std::memory_order_acquire));
   pins_.read();

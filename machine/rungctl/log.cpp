@@ -166,9 +166,8 @@ std::vector<json> merged(const control::LogInFiles& files, const json& ofHost) {
   return all;
 }
 
-void warnOf(const control::LogInFiles& files, const std::string& path) {
-  if (files.wrongLines != 0)
-    fail(fmt::format("{} has lines that are not entries of a log, and are left out: {}", path, files.wrongLines));
+void warnOf(const control::LogInFiles& files) {
+  for (const std::string& text : files.wrong) fail(text);
 }
 
 void follow(Client& client, const Words& words, const Wanted& wanted, const volatile int& stop) {
@@ -192,7 +191,7 @@ int log(Client& client, const Words& words, const volatile int& stop) try {
   if (!answer.contains("file"))
     fail("this host keeps its log only in memory; --retain FILE (rung_hal: retain=FILE) keeps it in FILE.log");
   else
-    warnOf(files, answer["file"].get<std::string>());
+    warnOf(files);
   if (answer.contains("problem")) fail("the log is not kept on disk: " + shown(answer["problem"]));
   if (!files.problem.empty()) fail(files.problem + "; older entries are missing");
   if (words.follow) follow(client, words, wanted, stop);
@@ -206,11 +205,11 @@ int logFile(const Words& words) try {
   const Wanted wanted(words);
   const control::LogInFiles files = control::readLog(words.file);
   if (!files.found) return fail("there is no log " + words.file, cli::kEnvironment);
-  if (files.entries.empty() && files.problem.empty() && files.wrongLines != 0)
+  if (files.entries.empty() && files.problem.empty() && !files.wrong.empty())
     return fail(words.file + " is not a log of a host", cli::kEnvironment);
   const json answer = {{"ok", true}, {"entries", wanted.of(merged(files, json::array()))}};
   print(words, answer, textOf(answer["entries"]));
-  warnOf(files, words.file);
+  warnOf(files);
   return files.problem.empty() ? int{cli::kOk} : fail(files.problem, cli::kEnvironment);
 } catch (const std::invalid_argument& wrong) {
   return fail(wrong.what(), cli::kUsage);

@@ -123,10 +123,10 @@ Lines entriesOf(const std::vector<json>& entries, const char* none, bool newestF
   return lines;
 }
 
-Lines waitingOf(const Look& look) {
+Lines waitingLinesOf(const Look& look) {
   Lines lines;
-  for (const std::string& text : waitingLines(look.status))
-    lines.push_back({text, text.find("timeout") == std::string::npos ? Style::Plain : Style::Alarm});
+  for (const Waiting& waiting : waitingOf(look.status))
+    lines.push_back({waiting.text, waiting.late ? Style::Alarm : Style::Plain});
   if (lines.empty()) lines.push_back({"nothing waits", Style::Faint});
   return lines;
 }
@@ -150,8 +150,10 @@ Lines linesOf(const Look& look, Section section, const View& view) {
   case Section::Rungs: return rungsOf(look);
   case Section::Pins: return pinsOf(look, view.byLongest);
   case Section::Messages: return entriesOf(look.messages, "no message is on", false);
-  case Section::Waiting: return waitingOf(look);
-  case Section::Log: return entriesOf(look.log, "nothing has happened", true);
+  case Section::Waiting: return waitingLinesOf(look);
+  case Section::Log:
+    return look.log ? entriesOf(*look.log, "nothing has happened", true)
+                    : Lines{{"not known: the connection has ended before it was asked for", Style::Faint}};
   }
   return {};
 }

@@ -45,12 +45,12 @@ public:
   // Called in each turn: writes the changes. Returns a report for users, or "": writing fails, for another reason than
   // before, or works again; entries are lost.
   std::string tick(int64_t nowS);
+  bool busy() const; // changes are being written
 
 private:
   void read();
   std::string reportOf(bool isNew, int64_t nowS);
   void give(LogEntries::Lines lines);
-  bool busy() const;
   void wait();
   void work();
   std::string write();

@@ -156,10 +156,13 @@ std::string textOf(const json& entries) {
   return text.empty() ? "the log has no such entries" : text;
 }
 
-// The entries of the files, in which those in the memory of the host are newer.
+// The entries of the files, in which those in the memory of the host are newer. The file may have others that came
+// after the host's answer: whether they are on is not known here.
 std::vector<json> merged(const control::LogInFiles& files, const json& ofHost) {
   std::map<uint64_t, json> byNumber;
-  for (const control::LogEntry& entry : files.entries) byNumber[entry.number] = control::jsonOf(entry);
+  const uint64_t last = ofHost.empty() ? UINT64_MAX : ofHost.back().value("n", uint64_t{0});
+  for (const control::LogEntry& entry : files.entries)
+    if (entry.number <= last) byNumber[entry.number] = control::jsonOf(entry);
   for (const json& entry : ofHost) byNumber[entry.value("n", uint64_t{0})] = entry;
   std::vector<json> all;
   for (auto& [number, entry] : byNumber) all.push_back(std::move(entry));

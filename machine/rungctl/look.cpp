@@ -49,6 +49,7 @@ void Observer::look(Client& client, const Wanted& wanted, Look& look) {
   const json profile = client.ask({{"do", "profile"}, {"top", kMostRungs}, {"by", wanted.rungsBy}}, kPatience);
   const bool isCounted = profile.value("ok", false) && profile.value("time_ns", 0.0) > 0;
   look.profile = isCounted ? profile : json();
+  look.timers = asked(client, {{"do", "timers"}}, kPatience)["timers"].get<std::vector<json>>();
   const json messages = asked(client, {{"do", "messages"}}, kPatience);
   look.messages.clear();
   for (const json& entry : messages["entries"])

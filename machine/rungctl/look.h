@@ -23,6 +23,7 @@ struct Look {
   };
   nlohmann::json status;
   nlohmann::json profile;                         // null: the program does not count its rungs, or they are not wanted
+  std::vector<nlohmann::json> timers;             // that run
   std::vector<nlohmann::json> messages;           // that are on, the oldest first
   std::optional<std::vector<nlohmann::json>> log; // the newest last; nothing: it was never asked for
   std::vector<Pin> pins;                          // in the order of the mapping file

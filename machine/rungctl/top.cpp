@@ -83,8 +83,8 @@ private:
   void scrollDown(size_t lines) { view_.scrolled = std::min(view_.scrolled + lines, most()); }
   // More than any section has lines that are not shown.
   size_t most() const {
-    return std::max(
-        {look_.pins.size(), look_.log ? look_.log->size() : 0, look_.messages.size(), size_t{Observer::kMostRungs}});
+    return std::max({look_.pins.size(), look_.timers.size(), look_.log ? look_.log->size() : 0, look_.messages.size(),
+                     size_t{Observer::kMostRungs}});
   }
 
   void pressLetter(char letter) {
@@ -93,6 +93,7 @@ private:
     case 'r': show(Section::Rungs); break;
     case 'p': show(Section::Pins); break;
     case 'm': show(Section::Messages); break;
+    case 't': show(Section::Timers); break;
     case 'w': show(Section::Waiting); break;
     case 'l': show(Section::Log); break;
     case 's':
@@ -121,8 +122,13 @@ int top(const Words& words, const volatile int& stop) try {
   Client client(words.common.host);
   Look look;
   Observer().look(client, {}, look);
-  nlohmann::json answer = {{"ok", true},       {"status", look.status},   {"messages", look.messages},
-                           {"log", *look.log}, {"profile", look.profile}, {"pins", nlohmann::json::array()}};
+  nlohmann::json answer = {{"ok", true},
+                           {"status", look.status},
+                           {"messages", look.messages},
+                           {"log", *look.log},
+                           {"profile", look.profile},
+                           {"timers", look.timers},
+                           {"pins", nlohmann::json::array()}};
   for (const Look::Pin& pin : look.pins)
     answer["pins"].push_back({{"name", pin.name}, {"value", pin.value}, {"uses", pin.uses}});
   print(words, answer, wholeText(look));

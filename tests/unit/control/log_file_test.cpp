@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <sys/resource.h>
 
@@ -322,6 +323,111 @@ TEST_F(LogFileTest, DamagedBytesHarmOnlyTheirLines) {
     const LogInFiles read = readLog(path);
     EXPECT_GE(read.entries.size(), 18u) << at; // a line end that is gone harms two
     EXPECT_TRUE(read.entries.size() >= 19 || !read.wrong.empty()) << at;
+  }
+}
+
+// What a host does with its log in an order that a seed decides: messages, changes, full disks, crashes at any byte of
+// the file, new starts. Whatever was written before the last crash and is not turned over is there, once, as it was.
+class RandomLog {
+public:
+  explicit RandomLog(uint32_t seed, const std::string& path) : random_(seed), path_(path) { begin(); }
+
+  void step() {
+    switch (below(12)) {
+    case 0:
+    case 1:
+    case 2: log_->come({below(6), 0, 0}, "message " + std::to_string(below(3)), now_, chance(30)); break;
+    case 3:
+    case 4: log_->go({below(6), 0, 0}, now_); break;
+    case 5: log_->acknowledge(now_); break;
+    case 6:
+    case 7: log_->happen({.kind = LogKind::Set, .text = std::string(below(600), 'x')}, now_, chance(20)); break;
+    case 8: now_ += below(12); break;
+    case 9: settle(); break;
+    case 10:
+      if (chance(10)) full_ = full_ ? nullptr : std::make_unique<Full>(below(9000));
+      break;
+    case 11:
+      if (chance(15)) crash();
+      break;
+    }
+    if (chance(40)) file_->tick(now_);
+  }
+  // The regular end; returns what is wrong.
+  std::string end() {
+    full_.reset();
+    settle();
+    file_.reset();
+    return compare(*log_);
+  }
+  const std::string& wrong() const { return wrong_; }
+
+private:
+  uint32_t below(uint32_t most) { return static_cast<uint32_t>(random_() % most); }
+  bool chance(uint32_t percent) { return below(100) < percent; }
+
+  void begin() {
+    log_ = std::make_unique<LogEntries>();
+    file_ = std::make_unique<LogFile>(*log_, path_, 30'000);
+  }
+  // Until all that is due is written, if it can be.
+  void settle() {
+    for (int i = 0; i < 3 && !full_; ++i) {
+      now_ += LogFile::kRetryS;
+      file_->tick(now_);
+      for (int wait = 0; wait < 5000 && file_->busy(); ++wait)
+        std::this_thread::sleep_for(std::chrono::microseconds(20));
+    }
+  }
+  // The process is killed in the middle of its last line: a copy of the files as they are is continued.
+  void crash() {
+    settle();
+    const bool isWhole = !full_;
+    std::error_code none;
+    fs::copy_file(path_, path_ + ".copy", fs::copy_options::overwrite_existing, none);
+    const bool hasOlder = fs::copy_file(olderLog(path_), path_ + ".copy.1", fs::copy_options::overwrite_existing, none);
+    if (isWhole && wrong_.empty()) wrong_ = compare(*log_);
+    full_.reset();
+    file_.reset();
+    fs::rename(path_ + ".copy", path_, none);
+    fs::remove(olderLog(path_), none);
+    if (hasOlder) fs::rename(path_ + ".copy.1", olderLog(path_), none);
+    std::ofstream(path_, std::ios::app | std::ios::binary) << std::string("{\"n\":1234567,\"came\":1", below(23));
+    begin();
+  }
+  // The entries of the file are those of memory, as far as both have them.
+  std::string compare(const LogEntries& log) const {
+    const LogInFiles read = readLog(path_);
+    if (!read.wrong.empty()) return read.wrong.front();
+    for (const LogEntry& kept : read.entries) {
+      const auto found = std::ranges::find(log.entries(), kept.number, &LogEntry::number);
+      if (found == log.entries().end() || found->changed) continue;
+      LogEntry here = *found;
+      here.cut = kept.cut; // of an earlier start: the file has no line for it
+      if (jsonOf(here) != jsonOf(kept)) return jsonOf(*found).dump() + " is on disk " + jsonOf(kept).dump();
+    }
+    for (const LogEntry& on : log.shown())
+      if (!on.changed && std::ranges::find(read.entries, on.number, &LogEntry::number) == read.entries.end())
+        return "what is on is not on disk: " + jsonOf(on).dump();
+    return {};
+  }
+
+  std::mt19937 random_;
+  std::string path_;
+  int64_t now_ = kBegin;
+  std::unique_ptr<LogEntries> log_;
+  std::unique_ptr<LogFile> file_;
+  std::unique_ptr<Full> full_;
+  std::string wrong_;
+};
+
+TEST(LogFileRandom, WhatIsOnDiskIsWhatWasInMemory) {
+  for (uint32_t seed = 1; seed <= 40; ++seed) {
+    const TemporaryFolder folder;
+    RandomLog log(seed, (folder / "kept.log").string());
+    for (int i = 0; i < 400; ++i) log.step();
+    EXPECT_EQ(log.wrong(), "") << "seed " << seed;
+    EXPECT_EQ(log.end(), "") << "seed " << seed;
   }
 }
 

@@ -30,6 +30,8 @@ ir::FaultId fault(ir::Module& module, std::string_view text);
 class Numbering {
 public:
   std::string numbered(std::string key);
+  // The key without its number.
+  static std::string withoutNumber(const std::string& numbered) { return numbered.substr(0, numbered.rfind('~')); }
 
 private:
   std::unordered_map<std::string, uint32_t> alike_;

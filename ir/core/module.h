@@ -128,6 +128,27 @@ struct Continuation {
   std::vector<std::string> points; // all different
 };
 
+// A cell of a timer: a slot, or a place in a space.
+struct TimerCell {
+  Type type = Type::None; // None: there is no cell
+  SlotId slot;            // invalid: the cell is in the space
+  SpaceId space;
+  uint32_t byte = 0;
+};
+
+// A timer, for displays (see rung_timer).
+struct Timer {
+  std::string name; // the instruction as the dialect writes it
+  uint32_t flags = 0;
+  TimerCell time;
+  uint32_t timeUs = 1;                 // microseconds of a unit of the time
+  SlotId running;                      // a bit; invalid: it runs while its time is between 0 and its end
+  TimerCell preset;                    // without one `constant`
+  int64_t constant = -1;               // negative: not known
+  TimerCell unit;                      // its number selects one of the units; without one the first
+  std::vector<uint32_t> unitsUs = {1}; // of the preset
+};
+
 // The enum rung_type of a type; for None that of a byte, which a name without a type names.
 constexpr uint32_t abiType(Type type) {
   constexpr uint32_t kTypes[kTypeCount] = {RUNG_TYPE_I8,  RUNG_TYPE_BIT, RUNG_TYPE_I8, RUNG_TYPE_I16,
@@ -201,6 +222,7 @@ struct Module {
   std::vector<Space> spaces;
   std::vector<Slot> slots;
   std::vector<Continuation> continuations;
+  std::vector<Timer> timers;
   std::vector<Symbol> symbols;
   std::vector<Init> inits;
   std::vector<SpaceSpan> retains;

@@ -41,6 +41,25 @@ constexpr FieldInfo kContinuationFields[] = {
     RUNG_FIELD(rung_continuation, point_count, U32), RUNG_ARRAY(rung_continuation, points, point_count, Texts)};
 constexpr StructInfo kContinuation{"rung_continuation", sizeof(rung_continuation), kContinuationFields};
 
+constexpr FieldInfo kTimerFields[] = {RUNG_FIELD(rung_timer, name, Text),
+                                      RUNG_FIELD(rung_timer, preset, I64),
+                                      RUNG_ARRAY(rung_timer, units, unit_count, U32s),
+                                      RUNG_FIELD(rung_timer, unit_count, U32),
+                                      RUNG_FIELD(rung_timer, flags, U32),
+                                      RUNG_FIELD(rung_timer, rung, U32),
+                                      RUNG_FIELD(rung_timer, time_us, U32),
+                                      RUNG_FIELD(rung_timer, time_type, U32),
+                                      RUNG_FIELD(rung_timer, time_space, U32),
+                                      RUNG_FIELD(rung_timer, time_at, U32),
+                                      RUNG_FIELD(rung_timer, running_at, U32),
+                                      RUNG_FIELD(rung_timer, preset_type, U32),
+                                      RUNG_FIELD(rung_timer, preset_space, U32),
+                                      RUNG_FIELD(rung_timer, preset_at, U32),
+                                      RUNG_FIELD(rung_timer, unit_type, U32),
+                                      RUNG_FIELD(rung_timer, unit_space, U32),
+                                      RUNG_FIELD(rung_timer, unit_at, U32)};
+constexpr StructInfo kTimer{"rung_timer", sizeof(rung_timer), kTimerFields};
+
 constexpr FieldInfo kInitFields[] = {RUNG_FIELD(rung_init, offset, U32), RUNG_FIELD(rung_init, size, U32),
                                      RUNG_ARRAY(rung_init, data, size, Bytes)};
 constexpr StructInfo kInit{"rung_init", sizeof(rung_init), kInitFields};
@@ -121,6 +140,7 @@ constexpr FieldInfo kProgramFields[] = {RUNG_FIELD(rung_program, size, OwnSize),
                                         RUNG_FIELD(rung_program, text_count, U32),
                                         RUNG_FIELD(rung_program, slot_count, U32),
                                         RUNG_FIELD(rung_program, continuation_count, U32),
+                                        RUNG_FIELD(rung_program, timer_count, U32),
                                         RUNG_FIELD(rung_program, write_count, U32),
                                         RUNG_FIELD(rung_program, read_count, U32),
                                         RUNG_FIELD(rung_program, change_count, U32),
@@ -128,6 +148,7 @@ constexpr FieldInfo kProgramFields[] = {RUNG_FIELD(rung_program, size, OwnSize),
                                         RUNG_STRUCTS(rung_program, symbols, symbol_count, kSymbol),
                                         RUNG_STRUCTS(rung_program, slots, slot_count, kSlot),
                                         RUNG_STRUCTS(rung_program, continuations, continuation_count, kContinuation),
+                                        RUNG_STRUCTS(rung_program, timers, timer_count, kTimer),
                                         RUNG_STRUCTS(rung_program, inits, init_count, kInit),
                                         RUNG_STRUCTS(rung_program, retains, retain_count, kSpan),
                                         RUNG_STRUCTS(rung_program, safe_spans, safe_count, kSpan),

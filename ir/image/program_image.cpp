@@ -5,6 +5,7 @@
 #include <map>
 #include <span>
 #include <string_view>
+#include <tuple>
 
 #include "ir/analysis/longest_path.h"
 #include "ir/core/op_info.h"
@@ -29,6 +30,7 @@ public:
     addSymbols();
     addSlots();
     addContinuations();
+    addTimers();
     addInits();
     addSpans(module_.retains, tables_.retains);
     addSpans(module_.safeSpans, tables_.safeSpans);
@@ -56,6 +58,8 @@ private:
     Places places;
     for (const Symbol& s : module_.symbols)
       if (s.space.valid()) places[{s.space.index, s.byte}];
+    for (const Timer& timer : module_.timers)
+      if (!timer.time.slot.valid()) places[{timer.time.space.index, timer.time.byte}];
     for (uint32_t r = 0; r < module_.routines.size(); ++r)
       for (uint32_t i = 0; i < module_.routines[r].rungs.size(); ++i)
         for (const Op& op : module_.routines[r].rungs[i].ops) {
@@ -117,6 +121,41 @@ private:
            static_cast<uint32_t>(points.size()), points.data()});
     }
     std::ranges::sort(tables_.continuations, {}, [](const rung_continuation& c) { return std::string_view(c.key); });
+  }
+
+  // Type, space, and byte or offset of a cell.
+  std::tuple<uint32_t, uint32_t, uint32_t> cellOf(const TimerCell& cell) const {
+    if (cell.type == Type::None) return {0, RUNG_NONE, 0};
+    if (cell.slot.valid()) return {abiType(cell.type), RUNG_NONE, layout_.memory().slot(cell.slot)};
+    return {abiType(cell.type), cell.space.index, cell.byte};
+  }
+
+  void addTimers() {
+    const std::vector<uint32_t> rungs = firstRungsOfSlots();
+    const Places places = reachedPlaces();
+    for (const Timer& timer : module_.timers) {
+      const std::vector<uint32_t>& units = tables_.units.emplace_back(timer.unitsUs);
+      rung_timer out{.name = tables_.text(timer.name),
+                     .preset = timer.preset.type == Type::None ? timer.constant : 0,
+                     .units = units.data(),
+                     .unit_count = static_cast<uint32_t>(units.size()),
+                     .flags = timer.flags,
+                     .rung = rungOf(timer, rungs, places),
+                     .time_us = timer.timeUs,
+                     .running_at = timer.running.valid() ? layout_.memory().slot(timer.running) : RUNG_NONE};
+      std::tie(out.time_type, out.time_space, out.time_at) = cellOf(timer.time);
+      std::tie(out.preset_type, out.preset_space, out.preset_at) = cellOf(timer.preset);
+      std::tie(out.unit_type, out.unit_space, out.unit_at) = cellOf(timer.unit);
+      tables_.timers.push_back(out);
+    }
+    std::ranges::stable_sort(tables_.timers, {}, &rung_timer::rung);
+  }
+
+  // `slots`: firstRungsOfSlots.
+  static uint32_t rungOf(const Timer& timer, const std::vector<uint32_t>& slots, const Places& places) {
+    if (timer.time.slot.valid()) return slots[timer.time.slot.index];
+    if (timer.running.valid()) return slots[timer.running.index];
+    return places.at({timer.time.space.index, timer.time.byte}).rung;
   }
 
   void addInits() {
@@ -367,6 +406,7 @@ void link(rung_program& p, const ImageTables& tables) {
   point(tables.symbols, p.symbols, p.symbol_count);
   point(tables.slots, p.slots, p.slot_count);
   point(tables.continuations, p.continuations, p.continuation_count);
+  point(tables.timers, p.timers, p.timer_count);
   point(tables.inits, p.inits, p.init_count);
   point(tables.retains, p.retains, p.retain_count);
   point(tables.safeSpans, p.safe_spans, p.safe_count);

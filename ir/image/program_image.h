@@ -16,11 +16,13 @@ struct ImageTables {
   std::deque<std::vector<rung_range>> ranges;
   std::deque<std::vector<uint8_t>> initData;
   std::deque<std::vector<const char*>> points;
+  std::deque<std::vector<uint32_t>> units;
   // Memory of the program.
   std::vector<rung_space> spaces;
   std::vector<rung_symbol> symbols;
   std::vector<rung_slot> slots;
   std::vector<rung_continuation> continuations;
+  std::vector<rung_timer> timers;
   std::vector<rung_init> inits;
   std::vector<rung_span> retains;
   std::vector<rung_span> safeSpans;

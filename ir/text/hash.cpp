@@ -11,10 +11,10 @@ namespace {
 class Hasher {
 public:
   uint64_t of(const Module& module) {
-    const auto& [name, dialect, files, spaces, slots, continuations, symbols, inits, retains, safeSpans, faults,
+    const auto& [name, dialect, files, spaces, slots, continuations, timers, symbols, inits, retains, safeSpans, faults,
                  services, messages, routines, tasks, mainTask, fastTask, scan, fast, slices, instrumented] = module;
-    all(name, dialect, files, spaces, slots, continuations, symbols, inits, retains, safeSpans, faults, services,
-        messages, routines, tasks, mainTask, fastTask, scan, fast, slices, instrumented);
+    all(name, dialect, files, spaces, slots, continuations, timers, symbols, inits, retains, safeSpans, faults,
+        services, messages, routines, tasks, mainTask, fastTask, scan, fast, slices, instrumented);
     return hash_;
   }
 
@@ -54,6 +54,17 @@ private:
     const auto& [key, slot, space, byte, points] = continuation;
     all(key, slot, points);
     if (!slot.valid()) all(space, byte);
+  }
+  void add(const TimerCell& cell) {
+    const auto& [type, slot, space, byte] = cell;
+    number(static_cast<uint32_t>(type));
+    if (type == Type::None) return;
+    add(slot);
+    if (!slot.valid()) all(space, byte);
+  }
+  void add(const Timer& timer) {
+    const auto& [name, flags, time, timeUs, running, preset, constant, unit, unitsUs] = timer;
+    all(name, flags, time, timeUs, running, preset, constant, unit, unitsUs);
   }
   void add(const Symbol& symbol) {
     const auto& [name, comment, space, byte, bit, type, count, flags, value] = symbol;

@@ -20,6 +20,7 @@ inline constexpr Keyword kSpaceFlags[] = {{"input", RUNG_SPACE_INPUT},
                                           {"output", RUNG_SPACE_OUTPUT},
                                           {"hidden", RUNG_SPACE_HIDDEN},
                                           {"allocated", RUNG_SPACE_ALLOCATED}};
+inline constexpr Keyword kTimerFlags[] = {{"down", RUNG_TIMER_DOWN}, {"runs", RUNG_TIMER_RUNS}};
 inline constexpr Keyword kSymbolFlags[] = {{"readonly", RUNG_SYMBOL_READONLY},
                                            {"hidden", RUNG_SYMBOL_HIDDEN},
                                            {"const", RUNG_SYMBOL_CONST},

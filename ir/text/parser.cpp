@@ -164,6 +164,41 @@ private:
     module_.continuations.push_back(std::move(c));
   }
 
+  TimerCell parseTimerCell() {
+    TimerCell cell{.type = parseType(scanner_)};
+    if (scanner_.accept('$')) {
+      cell.slot = SlotId{scanner_.u32()};
+    } else {
+      const ParsedPlace place = parsePlaceAs(PlaceForm::Byte);
+      cell.space = SpaceId{place.space};
+      cell.byte = byteOf(place);
+    }
+    return cell;
+  }
+
+  void parseTimer() {
+    Timer timer;
+    timer.name = scanner_.text();
+    timer.flags = parseFlags(kTimerFlags);
+    scanner_.expectWord("time");
+    timer.time = parseTimerCell();
+    timer.timeUs = field("by");
+    if (scanner_.acceptWord("running")) {
+      scanner_.expect('$');
+      timer.running = SlotId{scanner_.u32()};
+    }
+    scanner_.expectWord("preset");
+    if (scanner_.acceptWord("const"))
+      timer.constant = scanner_.i64();
+    else
+      timer.preset = parseTimerCell();
+    if (scanner_.acceptWord("unit")) timer.unit = parseTimerCell();
+    scanner_.expectWord("of");
+    timer.unitsUs = {scanner_.u32()};
+    while (scanner_.accept(',')) timer.unitsUs.push_back(scanner_.u32());
+    module_.timers.push_back(std::move(timer));
+  }
+
   void parseInit() {
     const ParsedPlace place = parsePlaceAs(PlaceForm::Byte);
     Init init{.space = SpaceId{place.space}, .byte = byteOf(place), .data = {}};
@@ -301,7 +336,7 @@ private:
     std::string_view keyword;
     void (Parser::*parse)();
   };
-  static const Declaration kDeclarations[15];
+  static const Declaration kDeclarations[16];
 
   Scanner scanner_;
   Module module_;
@@ -309,7 +344,7 @@ private:
   std::vector<Call> calls_;
 };
 
-const Parser::Declaration Parser::kDeclarations[15] = {{"file", &Parser::parseFile},
+const Parser::Declaration Parser::kDeclarations[16] = {{"file", &Parser::parseFile},
                                                        {"space", &Parser::parseSpace},
                                                        {"slot", &Parser::parseSlot},
                                                        {"symbol", &Parser::parseSymbol},
@@ -323,7 +358,8 @@ const Parser::Declaration Parser::kDeclarations[15] = {{"file", &Parser::parseFi
                                                        {"task", &Parser::parseTask},
                                                        {"schedule", &Parser::parseSchedule},
                                                        {"step", &Parser::parseStep},
-                                                       {"continuation", &Parser::parseContinuation}};
+                                                       {"continuation", &Parser::parseContinuation},
+                                                       {"timer", &Parser::parseTimer}};
 
 } // namespace
 

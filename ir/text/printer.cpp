@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cmath>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unordered_map>
 
 #include "ir/core/op_info.h"
@@ -133,6 +134,8 @@ private:
 
   void printMemory();
   void printFlags(std::span<const Keyword> list, uint32_t flags);
+  std::string timerCell(const TimerCell& cell) const;
+  void printTimer(const Timer& timer);
   void printTask(const Task& task);
   void printCopy(std::string_view when, const Copy& copy);
   void printStep(std::string_view list, const Step& step) {
@@ -191,6 +194,22 @@ void Printer::printFlags(std::span<const Keyword> list, uint32_t flags) {
   if (flags != 0) put(" #{}", flags);
 }
 
+std::string Printer::timerCell(const TimerCell& cell) const {
+  return fmt::format("{} {}", typeName(cell.type),
+                     cell.slot.valid() ? fmt::format("${}", cell.slot.index) : bytePlace(cell.space.index, cell.byte));
+}
+
+void Printer::printTimer(const Timer& timer) {
+  put("timer {}", inQuotes(timer.name));
+  printFlags(kTimerFlags, timer.flags);
+  put(" time {} by {}", timerCell(timer.time), timer.timeUs);
+  if (timer.running.valid()) put(" running ${}", timer.running.index);
+  put(" preset {}",
+      timer.preset.type == Type::None ? fmt::format("const {}", timer.constant) : timerCell(timer.preset));
+  if (timer.unit.type != Type::None) put(" unit {}", timerCell(timer.unit));
+  put(" of {}\n", fmt::join(timer.unitsUs, ","));
+}
+
 void Printer::printMemory() {
   for (const Space& space : module_.spaces) {
     put("space {} unit {} units {}", nameText(space.name), space.unitBytes, space.units);
@@ -208,6 +227,7 @@ void Printer::printMemory() {
     for (const std::string& point : c.points) put(" {}", inQuotes(point));
     put("\n");
   }
+  for (const Timer& timer : module_.timers) printTimer(timer);
   for (const Symbol& s : module_.symbols) {
     const Keyword* type = findKeyword(kSymbolTypes, s.type);
     const bool bit = s.type == RUNG_TYPE_BIT;

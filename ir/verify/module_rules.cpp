@@ -93,6 +93,31 @@ void checkContinuations(ModuleCheck& check) {
   }
 }
 
+void checkTimers(ModuleCheck& check) {
+  const Module& m = check.module;
+  for (const Timer& timer : m.timers) {
+    const auto fail = [&](std::string_view what) {
+      check.fail(Rule::Slots, fmt::format("timer \"{}\" {}", timer.name, what));
+    };
+    const auto isCell = [&](const TimerCell& cell) {
+      if (cell.type != Type::I8 && cell.type != Type::I16 && cell.type != Type::I32 && cell.type != Type::I64)
+        return false;
+      return cell.slot.valid() ? cell.slot.index < m.slots.size() && m.slots[cell.slot.index].type == cell.type &&
+                                     !m.slots[cell.slot.index].transient
+                               : check.inside(cell.space, cell.byte, byteWidth(cell.type));
+    };
+    if ((timer.flags & ~(RUNG_TIMER_DOWN | RUNG_TIMER_RUNS)) != 0) fail("has unknown flags");
+    if (!isCell(timer.time)) fail("has no cell for its time");
+    if (timer.preset.type != Type::None && !isCell(timer.preset)) fail("has no cell for its preset");
+    if (timer.unit.type != Type::None && !isCell(timer.unit)) fail("has no cell for its unit");
+    if (timer.unitsUs.empty()) fail("has no unit");
+    if (!timer.running.valid()) continue;
+    if (timer.running.index >= m.slots.size() || m.slots[timer.running.index].type != Type::Bit ||
+        m.slots[timer.running.index].transient)
+      fail("has no slot that says whether it runs");
+  }
+}
+
 void checkSymbols(ModuleCheck& check) {
   for (const Symbol& s : check.module.symbols) {
     const auto fail = [&](std::string_view what) {
@@ -275,8 +300,8 @@ private:
 } // namespace
 
 bool checkModule(ModuleCheck& check) {
-  for (void (*rule)(ModuleCheck&) : {checkNames, checkSpaces, checkSlots, checkContinuations, checkSymbols, checkSpans,
-                                     checkCopies, checkTasks, checkSchedule, checkRoutines})
+  for (void (*rule)(ModuleCheck&) : {checkNames, checkSpaces, checkSlots, checkContinuations, checkTimers, checkSymbols,
+                                     checkSpans, checkCopies, checkTasks, checkSchedule, checkRoutines})
     rule(check);
   return check.errorCount() == 0;
 }

@@ -33,11 +33,6 @@ const char* changeName(uint32_t kind) {
   return kind < std::size(kNames) ? kNames[kind] : "changed";
 }
 
-const char* rungChangeName(uint32_t kind) {
-  constexpr const char* kNames[] = {"new", "removed", "changed", "moved"}; // enum rung_rung_change_kind
-  return kind < std::size(kNames) ? kNames[kind] : "changed";
-}
-
 bool losesState(uint32_t kind) {
   return kind == RUNG_CHANGE_REMOVED || kind == RUNG_CHANGE_RETYPED || kind == RUNG_CHANGE_CUT;
 }
@@ -94,6 +89,11 @@ json reportOf(const rung_replacement* replacement, Losses& lost) {
 }
 
 } // namespace
+
+const char* rungChangeName(uint32_t kind) {
+  constexpr const char* kNames[] = {"new", "removed", "changed", "moved"};
+  return kind < std::size(kNames) ? kNames[kind] : "changed";
+}
 
 // The program in a file, or the one compiled for this client.
 Changes::NextProgram Changes::nextProgram(const Peer& peer, const json& request) {

@@ -19,6 +19,9 @@
 
 namespace rung::control {
 
+// The name of an enum rung_rung_change_kind in answers.
+const char* rungChangeName(uint32_t kind);
+
 // Service thread. Throws Refused for requests that cannot be executed.
 class Changes {
 public:

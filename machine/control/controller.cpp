@@ -44,6 +44,7 @@ const Controller::Request Controller::kRequests[] = {
     {"map", {}, Request::by<&Controller::status_, &Status::map>},
     {"program", {}, Request::by<&Controller::tables_, &ProgramTables::program>},
     {"rungs", {}, Request::by<&Controller::tables_, &ProgramTables::rungs>},
+    {"timers", {}, Request::by<&Controller::status_, &Status::timers>},
     {"profile", {}, Request::by<&Controller::status_, &Status::profile>},
     {"clear-profile", host::Remote::Profile, Request::own<&Controller::clearProfile>},
     {"set", host::Remote::Set, Request::by<&Controller::cells_, &Cells::set>},
@@ -156,7 +157,7 @@ json Controller::mark(const Peer& peer, const json& request) {
 
 json Controller::keep(const Peer& peer, const json&) {
   checkRecorded(rung_instance_keep_recording(plc_.instance()));
-  plc_.logChange(peer, LogKind::Mark, "keep the recording of now");
+  plc_.logChange(peer, LogKind::Mark, "keep the recording");
   return json::object();
 }
 

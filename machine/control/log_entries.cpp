@@ -54,12 +54,13 @@ std::string lineOf(const LogEntry& entry) {
   return jsonOf(entry).dump(-1, ' ', false, json::error_handler_t::replace) + "\n";
 }
 
-} // namespace
-
+// Nothing: the text is not a line of a log.
 std::optional<LogEntry> logEntryOf(std::string_view text) try {
+  constexpr uint64_t kMostNumber = uint64_t{1} << 53;
   const json line = json::parse(text);
   LogEntry entry{.kind = kindOf(line), .text = line.at("text").get<std::string>()};
   entry.number = line.at("n").get<uint64_t>();
+  if (entry.number == 0 || entry.number > kMostNumber) return std::nullopt;
   entry.cameS = line.at("came").get<int64_t>();
   if (line.contains("key")) entry.key = line["key"].get<LogEntry::Key>();
   if (line.contains("went")) entry.wentS = line["went"].get<int64_t>();
@@ -80,8 +81,6 @@ std::optional<LogEntry> logEntryOf(std::string_view text) try {
   return std::nullopt;
 }
 
-namespace {
-
 // Cuts a text between two characters of UTF-8.
 void cut(std::string& text) {
   constexpr std::string_view kCut = "…";
@@ -92,6 +91,21 @@ void cut(std::string& text) {
 }
 
 } // namespace
+
+std::vector<size_t> readLogLines(std::string_view text, std::map<uint64_t, LogEntry>& entries) {
+  std::vector<size_t> wrong;
+  size_t number = 0;
+  for (size_t at = 0, end = 0; at < text.size(); at = end + 1) {
+    end = std::min(text.find('\n', at), text.size());
+    ++number;
+    if (end == at) continue;
+    if (std::optional<LogEntry> entry = logEntryOf(text.substr(at, end - at)))
+      entries.insert_or_assign(entry->number, std::move(*entry));
+    else
+      wrong.push_back(number);
+  }
+  return wrong;
+}
 
 // ---- all of them ---------------------------------------------------------------------------------------------------
 
@@ -108,15 +122,22 @@ LogEntry* LogEntries::lastOf(const LogEntry& like) {
 }
 
 LogEntry& LogEntries::add(LogEntry entry) {
-  cut(entry.text);
   entry.number = ++last_;
   entries_.push_back(std::move(entry));
-  if (entries_.size() > kMost) {
-    lost_ += entries_.front().changed ? 1 : 0;
-    entries_.pop_front();
-  }
+  if (entries_.size() > kMost + shown_.size()) drop();
   change(entries_.back());
   return entries_.back();
+}
+
+// Drops the oldest entry that is on disk, or the oldest one if none is, but none of a message that is on.
+void LogEntries::drop() {
+  const auto isWritten = [&](const LogEntry& entry) { return !entry.changed && !isOn(entry); };
+  auto oldest = std::ranges::find_if(entries_, isWritten);
+  if (oldest == entries_.end()) {
+    oldest = std::ranges::find_if(entries_, [&](const LogEntry& entry) { return !isOn(entry); });
+    ++lost_;
+  }
+  entries_.erase(oldest);
 }
 
 void LogEntries::change(LogEntry& entry) {
@@ -125,26 +146,15 @@ void LogEntries::change(LogEntry& entry) {
   changed_ = true;
 }
 
-// A message that is on has changed: so has its entry, or its line is written without one.
-void LogEntries::changeShown(LogEntry& shown) {
-  if (LogEntry* entry = find(shown.number)) {
-    entry->wentS = shown.wentS;
-    entry->seenS = shown.seenS;
-    entry->cut = shown.cut;
-    change(*entry);
-  } else {
-    change(shown);
-    late_.push_back(shown);
-  }
-}
-
 void LogEntries::come(const Key& key, const std::string& text, int64_t nowS, bool again) {
-  const auto on = shown_.find(key);
-  if (on != shown_.end() && on->second.text == text) return;
-  if (on != shown_.end()) go(key, nowS); // the text has changed
-  if (shown_.size() == kMostShown) return;
   LogEntry entry{.kind = LogKind::Message, .text = text, .key = key};
+  cut(entry.text);
   entry.cameS = nowS;
+  if (const auto on = shown_.find(key); on != shown_.end()) {
+    if (find(on->second)->text == entry.text) return;
+    go(key, nowS); // the text has changed
+  }
+  if (shown_.size() == kMostShown) return;
   LogEntry* former = again ? lastOf(entry) : nullptr;
   if (former != nullptr) {
     ++former->times;
@@ -152,16 +162,16 @@ void LogEntries::come(const Key& key, const std::string& text, int64_t nowS, boo
     former->seenS.reset();
     change(*former);
   }
-  shown_[key] = former != nullptr ? *former : add(std::move(entry));
+  shown_[key] = former != nullptr ? former->number : add(std::move(entry)).number;
 }
 
 std::string LogEntries::go(const Key& key, int64_t nowS) {
   const auto on = shown_.find(key);
   if (on == shown_.end()) return {};
-  LogEntry gone = std::move(on->second);
+  LogEntry& gone = *find(on->second);
   shown_.erase(on);
   gone.wentS = nowS;
-  changeShown(gone);
+  change(gone);
   return gone.text;
 }
 
@@ -172,6 +182,7 @@ std::vector<std::string> LogEntries::goAll(int64_t nowS) {
 }
 
 void LogEntries::happen(LogEntry entry, int64_t nowS, bool again) {
+  cut(entry.text);
   entry.cameS = nowS;
   if (LogEntry* former = again ? lastOf(entry) : nullptr) {
     ++former->times;
@@ -183,29 +194,32 @@ void LogEntries::happen(LogEntry entry, int64_t nowS, bool again) {
 
 std::vector<std::string> LogEntries::acknowledge(int64_t nowS) {
   std::vector<std::string> texts;
-  for (auto& [key, on] : shown_) {
+  for (const auto& [key, number] : shown_) {
+    LogEntry& on = *find(number);
     if (on.seenS) continue;
     on.seenS = nowS;
-    changeShown(on);
+    change(on);
     texts.push_back(on.text);
   }
   return texts;
 }
 
 void LogEntries::end(int64_t nowS) {
-  for (auto& [key, on] : shown_) on.cut = true;
+  for (const auto& [key, number] : shown_) find(number)->cut = true;
   goAll(nowS);
 }
 
 std::vector<LogEntry> LogEntries::shown() const {
   std::vector<LogEntry> all;
-  for (const auto& [key, entry] : shown_) all.push_back(entry);
+  for (const LogEntry& entry : entries_)
+    if (isOn(entry)) all.push_back(entry);
+  std::ranges::sort(all, {}, &LogEntry::key);
   return all;
 }
 
 bool LogEntries::isOn(const LogEntry& entry) const {
   const auto on = entry.key ? shown_.find(*entry.key) : shown_.end();
-  return on != shown_.end() && on->second.number == entry.number;
+  return on != shown_.end() && on->second == entry.number;
 }
 
 uint64_t LogEntries::takeLost() { return std::exchange(lost_, 0); }
@@ -218,53 +232,40 @@ bool LogEntries::mayBeWritten(const LogEntry& entry, int64_t nowS) {
   return entry.lines < kAtOnce || since >= kPauseS || since < 0;
 }
 
-std::string LogEntries::take(LogEntry& entry, int64_t nowS) {
-  entry.changed = false;
-  entry.lineS = nowS;
-  ++entry.lines;
-  ++lines_;
-  return lineOf(entry);
+void LogEntries::take(LogEntry& entry, bool isDue, Lines& lines) {
+  if (isDue && std::exchange(entry.changed, false))
+    lines.changed += lineOf(entry);
+  else if (isOn(entry))
+    lines.others += lineOf(entry);
 }
 
-std::string LogEntries::takeLines(int64_t nowS) {
+LogEntries::Lines LogEntries::takeLines(int64_t nowS) {
   if (!changed_) return {};
   if (std::exchange(secondS_, nowS) != nowS) lines_ = 0;
-  std::string text;
+  Lines lines;
   changed_ = false;
-  for (LogEntry& entry : std::exchange(late_, {})) text += take(entry, nowS);
   for (LogEntry& entry : entries_) {
-    if (entry.changed && lines_ < kMostLines && mayBeWritten(entry, nowS)) text += take(entry, nowS);
+    const bool isDue = entry.changed && lines_ < kMostLines && mayBeWritten(entry, nowS);
+    take(entry, isDue, lines);
     changed_ = changed_ || entry.changed;
+    if (!isDue) continue;
+    entry.lineS = nowS;
+    ++entry.lines;
+    ++lines_;
   }
-  return text;
+  return lines;
 }
 
-std::string LogEntries::takeAll() {
-  std::string text;
-  for (LogEntry& entry : std::exchange(late_, {})) text += lineOf(entry);
-  for (LogEntry& entry : entries_)
-    if (std::exchange(entry.changed, false)) text += lineOf(entry);
+LogEntries::Lines LogEntries::takeAll() {
+  Lines lines;
+  for (LogEntry& entry : entries_) take(entry, true, lines);
   changed_ = false;
-  return text;
-}
-
-std::string LogEntries::shownLines() const {
-  std::string text;
-  for (const auto& [key, entry] : shown_) text += lineOf(entry);
-  return text;
+  return lines;
 }
 
 size_t LogEntries::read(std::string_view text) {
-  size_t wrong = 0;
   std::map<uint64_t, LogEntry> newest;
-  for (size_t at = 0, end = 0; at < text.size(); at = end + 1) {
-    end = std::min(text.find('\n', at), text.size());
-    if (end == at) continue;
-    if (std::optional<LogEntry> entry = logEntryOf(text.substr(at, end - at)))
-      newest.insert_or_assign(entry->number, std::move(*entry));
-    else
-      ++wrong;
-  }
+  const size_t wrong = readLogLines(text, newest).size();
   for (auto& [number, entry] : newest) {
     entry.cut = entry.cut || (entry.key && !entry.wentS);
     entries_.push_back(std::move(entry));

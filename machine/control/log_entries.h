@@ -60,7 +60,7 @@ struct LogEntry {
   std::optional<Key> key = {};     // of a message
   std::optional<Person> by = {};   // of a change
   std::optional<Place> place = {}; // of a fault
-  uint64_t number = 0;             // continues across starts of the host
+  uint64_t number = 0;             // from 1; continues across starts of the host
   int64_t cameS = 0;
   std::optional<int64_t> wentS = {};
   std::optional<int64_t> seenS = {}; // when the message was acknowledged
@@ -77,13 +77,15 @@ struct LogEntry {
 std::string textOf(const LogEntry& entry);
 // The members of an entry in files and answers (docs/control-protocol.md).
 nlohmann::json jsonOf(const LogEntry& entry);
-// Nothing: the text is not a line of a log.
-std::optional<LogEntry> logEntryOf(std::string_view line);
+// Reads the lines of a log, of which a later one of an entry replaces the earlier one. Returns the numbers, from 1, of
+// the lines that are not valid.
+std::vector<size_t> readLogLines(std::string_view text, std::map<uint64_t, LogEntry>& entries);
 
 // Service thread.
 class LogEntries {
 public:
-  static constexpr size_t kMost = 1000; // entries in memory; the oldest ones are dropped
+  // Entries in memory besides those of messages that are on; the oldest ones that are on disk are dropped.
+  static constexpr size_t kMost = 1000;
   static constexpr size_t kMostShown = 1000;
   static constexpr size_t kMostText = 2000;  // bytes; longer texts are cut
   static constexpr int64_t kPauseS = 10;     // between two lines of an entry that keeps changing
@@ -105,7 +107,7 @@ public:
   void end(int64_t nowS);
 
   const std::deque<LogEntry>& entries() const { return entries_; }
-  // Messages that are on, sorted by key, including those whose entries were dropped.
+  // Messages that are on, sorted by key.
   std::vector<LogEntry> shown() const;
   bool isOn(const LogEntry& entry) const;
   // Whether the entry was made since this start of the host.
@@ -117,12 +119,14 @@ public:
 
   // ---- as lines of text; a later line of an entry replaces the earlier one
 
-  // Returns lines for the changes that are due: entries that change all the time are written rarely.
-  std::string takeLines(int64_t nowS);
-  // Returns lines for all changes.
-  std::string takeAll();
-  // Lines of the messages that are on.
-  std::string shownLines() const;
+  struct Lines {
+    std::string changed; // of entries that have changed since their last line
+    std::string others;  // of the other messages that are on, so that a new file has all of them
+  };
+  // Lines of the changes that are due: entries that change all the time are written rarely.
+  Lines takeLines(int64_t nowS);
+  // Lines of all changes.
+  Lines takeAll();
   // Reads the lines of a host that has ended; to be called first. Returns the number of lines that are not valid.
   size_t read(std::string_view text);
 
@@ -131,14 +135,13 @@ private:
   LogEntry* lastOf(const LogEntry& like);
   LogEntry& add(LogEntry entry);
   void change(LogEntry& entry);
-  void changeShown(LogEntry& shown);
+  void drop();
   static bool mayBeWritten(const LogEntry& entry, int64_t nowS);
-  std::string take(LogEntry& entry, int64_t nowS);
+  void take(LogEntry& entry, bool isDue, Lines& lines);
 
-  std::deque<LogEntry> entries_; // sorted by number
-  std::map<Key, LogEntry> shown_;
-  std::vector<LogEntry> late_; // changed after they were dropped from `entries_`
-  uint64_t last_ = 0;          // largest number
+  std::deque<LogEntry> entries_;  // sorted by number
+  std::map<Key, uint64_t> shown_; // numbers of the entries of messages that are on
+  uint64_t last_ = 0;             // largest number
   uint64_t first_ = 1;
   uint64_t version_ = 0;
   uint64_t lost_ = 0;

@@ -64,6 +64,13 @@ Tail readTail(const std::string& path, uint64_t most) {
 // Removes a last line without its end.
 void dropTorn(std::string& text) { text.resize(text.rfind('\n') + 1); }
 
+std::string wrongText(const std::string& path, const std::vector<size_t>& wrong) {
+  const std::string first = "line " + std::to_string(wrong.front());
+  if (wrong.size() == 1) return path + ": " + first + " is not an entry of a log, and is left out";
+  return path + ": " + std::to_string(wrong.size()) +
+         " lines are not entries of a log, and are left out; the first is " + first;
+}
+
 } // namespace
 
 std::string olderLog(const std::string& path) { return path + ".1"; }
@@ -76,14 +83,8 @@ LogInFiles readLog(const std::string& path) {
     log.found = log.found || tail.found;
     if (!tail.problem.empty()) log.problem = tail.problem;
     dropTorn(tail.text);
-    const std::string_view text = tail.text;
-    for (size_t at = 0, end = 0; at < text.size(); at = end + 1) {
-      end = text.find('\n', at);
-      if (std::optional<LogEntry> entry = logEntryOf(text.substr(at, end - at)))
-        newest.insert_or_assign(entry->number, std::move(*entry));
-      else
-        ++log.wrongLines;
-    }
+    if (const std::vector<size_t> wrong = readLogLines(tail.text, newest); !wrong.empty())
+      log.wrong.push_back(wrongText(name, wrong));
   }
   for (auto& [number, entry] : newest) log.entries.push_back(std::move(entry));
   return log;
@@ -97,7 +98,7 @@ LogFile::LogFile(LogEntries& entries, std::string path, uint64_t mostBytes)
 
 LogFile::~LogFile() {
   wait();
-  give(entries_.takeAll(), entries_.shownLines());
+  give(entries_.takeAll());
   wait();
   {
     const std::lock_guard lock(mutex_);
@@ -128,8 +129,8 @@ std::string LogFile::tick(int64_t nowS) {
   const bool isNew = problem_ != failed_;
   problem_ = failed_;
   if (!fails || nowS - triedS_ >= kRetryS || nowS < triedS_) {
-    std::string text = fails ? "" : entries_.takeLines(nowS);
-    if (!text.empty() || fails) give(std::move(text), entries_.shownLines());
+    LogEntries::Lines lines = fails ? LogEntries::Lines{} : entries_.takeLines(nowS);
+    if (!lines.changed.empty() || fails) give(std::move(lines));
     triedS_ = nowS;
   }
   return reportOf(isNew, nowS);
@@ -157,12 +158,13 @@ void LogFile::wait() {
   changed_.wait(lock, [this] { return !busy_; });
 }
 
-void LogFile::give(std::string text, std::string shown) {
+// A text that could not be written is tried again with the lines that belong to it.
+void LogFile::give(LogEntries::Lines lines) {
   {
     const std::lock_guard lock(mutex_);
     assert(!busy_);
-    text_ += text;
-    shown_ = std::move(shown);
+    text_ += lines.changed;
+    if (!lines.changed.empty()) others_ = std::move(lines.others);
     busy_ = true;
   }
   changed_.notify_all();
@@ -182,8 +184,9 @@ void LogFile::work() {
   }
 }
 
+// A file that has nothing but its beginning does not turn over again, however small it may be.
 std::string LogFile::write() try {
-  std::string problem = size_ + text_.size() > most_ && size_ != 0 ? turnOver() : "";
+  std::string problem = size_ + text_.size() > most_ && size_ > begun_ ? turnOver() : "";
   if (problem.empty()) problem = append(text_);
   if (problem.empty()) text_.clear();
   return problem;
@@ -191,12 +194,17 @@ std::string LogFile::write() try {
   return thrown.what();
 }
 
-// The file becomes the older one, and a new one begins with the messages that are on.
+// The file becomes the older one, and a new one begins with the messages that are on, the newest ones if not all have
+// room.
 std::string LogFile::turnOver() {
   if (std::rename(path_.c_str(), olderLog(path_).c_str()) != 0 && errno != ENOENT)
     return cannot("replace", olderLog(path_), errno);
   size_ = torn_ = 0;
-  return append(shown_);
+  const uint64_t room = most_ / 2;
+  if (others_.size() > room) others_.erase(0, others_.find('\n', others_.size() - room) + 1);
+  begun_ = others_.size();
+  text_.insert(0, std::exchange(others_, {}));
+  return {};
 }
 
 // Removes a line that was not completed. If the file has been changed from outside, the text is added at its end.

@@ -20,9 +20,10 @@ std::string olderLog(const std::string& path);
 // The log of files, whether their host runs or not, sorted by number.
 struct LogInFiles {
   std::vector<LogEntry> entries;
-  size_t wrongLines = 0; // lines that are not entries; a last one without its end is not counted
-  std::string problem;   // why a file cannot be read; "": they could be, or do not exist
-  bool found = false;    // at least one of the two exists
+  // Which lines are not entries, a sentence for each file that has some. A last line without its end is none of them.
+  std::vector<std::string> wrong;
+  std::string problem; // why a file cannot be read; "": they could be, or do not exist
+  bool found = false;  // at least one of the two exists
 };
 LogInFiles readLog(const std::string& path);
 
@@ -44,12 +45,12 @@ public:
   // Called in each turn: writes the changes. Returns a report for users, or "": writing fails, for another reason than
   // before, or works again; entries are lost.
   std::string tick(int64_t nowS);
+  bool busy() const; // changes are being written
 
 private:
   void read();
   std::string reportOf(bool isNew, int64_t nowS);
-  void give(std::string text, std::string shown);
-  bool busy() const;
+  void give(LogEntries::Lines lines);
   void wait();
   void work();
   std::string write();
@@ -68,10 +69,11 @@ private:
   bool busy_ = false;
   bool ending_ = false;
   std::string text_;   // to be written; kept after a failure
-  std::string shown_;  // lines with which a new file begins
+  std::string others_; // lines with which a new file begins
   std::string failed_; // why the last write failed; "": it succeeded
   uint64_t size_ = 0;  // of the file, without
   uint64_t torn_ = 0;  // the bytes of a line that was not completed
+  uint64_t begun_ = 0; // the bytes with which the file began, repeated from the former one
   std::thread thread_;
 };
 

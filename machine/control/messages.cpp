@@ -31,8 +31,6 @@ json jsonOf(const LogEntries& log, const LogEntry& entry) {
 std::vector<LogEntry> wantedOf(const LogEntries& log, bool all) {
   std::vector<LogEntry> wanted;
   size_t recent = 0;
-  for (const LogEntry& entry : log.shown())
-    if (log.entries().empty() || entry.number < log.entries().front().number) wanted.push_back(entry);
   for (const LogEntry& entry : log.entries()) recent += isMessage(entry.kind) && log.isNew(entry) ? 1 : 0;
   for (const LogEntry& entry : log.entries()) {
     if (!isMessage(entry.kind)) continue;
@@ -45,8 +43,12 @@ std::vector<LogEntry> wantedOf(const LogEntries& log, bool all) {
 std::string lineOf(int64_t seconds, const std::string& text) { return dateText(seconds) + " " + text; }
 
 LogKind kindOf(host::Report::Kind kind) {
-  if (kind == host::Report::Kind::Fault) return LogKind::Fault;
-  return kind == host::Report::Kind::Restart ? LogKind::Restart : LogKind::Report;
+  switch (kind) {
+  case host::Report::Kind::Fault: return LogKind::Fault;
+  case host::Report::Kind::Restart: return LogKind::Restart;
+  case host::Report::Kind::Other: break;
+  }
+  return LogKind::Report;
 }
 
 } // namespace

@@ -22,11 +22,9 @@ constexpr uint32_t kMostRungs = 2000; // in an answer
 std::string hexOf(uint64_t number) { return text::hexOfNumber(number, sizeof number); }
 
 json jsonOf(const runtime::ProgramParts& parts) {
-  return {{"memory", hexOf(parts.memory)},
-          {"names", hexOf(parts.names)},
-          {"contents", hexOf(parts.contents)},
-          {"messages", hexOf(parts.messages)},
-          {"schedule", hexOf(parts.schedule)}};
+  json out = json::object();
+  for (const runtime::ProgramPart& part : runtime::kProgramParts) out[part.name] = hexOf(parts.*part.hash);
+  return out;
 }
 
 json jsonOf(const rung_program& program, const rung_info& rung) {

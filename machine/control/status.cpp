@@ -2,9 +2,11 @@
 #include "machine/control/status.h"
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <iterator>
 #include <optional>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -154,6 +156,56 @@ json Status::map(const Peer&, const json&) {
   json protectedNames = json::array();
   for (const host::Protected& cell : map.protectedCells) protectedNames.push_back(cell.name);
   return {{"files", map.paths}, {"pins", pins}, {"permissions", permissions}, {"protected", protectedNames}};
+}
+
+// ---- timers --------------------------------------------------------------------------------------------------------
+
+// They are from different scans, as the program continues meanwhile.
+std::vector<rung_timer_info> Status::runningTimers() {
+  constexpr uint32_t kAtOnce = 64; // read in one step of the scan thread
+  struct {
+    rung_instance* plc;
+    uint32_t next = 0;
+    bool ended = false;
+    std::array<rung_timer_info, kAtOnce> found{};
+    uint32_t count = 0;
+  } looking{.plc = plc_.instance()};
+  host::Command look{.kind = host::Command::Kind::Act,
+                     .act =
+                         [](void* actor) {
+                           auto& what = *static_cast<decltype(looking)*>(actor);
+                           what.count = 0;
+                           for (uint32_t i = 0; i < kAtOnce && !what.ended; ++i, ++what.next) {
+                             rung_timer_info& timer = what.found[what.count];
+                             timer.size = sizeof timer;
+                             what.ended = rung_instance_timer(what.plc, what.next, &timer) != RUNG_OK;
+                             if (!what.ended && timer.running != 0) ++what.count;
+                           }
+                         },
+                     .actor = &looking};
+  std::vector<rung_timer_info> all;
+  while (!looking.ended) {
+    const host::CommandResult result = plc_.host().post(look);
+    if (!result.ok()) throw Refused(result.problem);
+    all.insert(all.end(), looking.found.begin(), looking.found.begin() + looking.count);
+  }
+  return all;
+}
+
+json Status::timers(const Peer&, const json&) {
+  json rows = json::array();
+  for (const rung_timer_info& timer : runningTimers()) {
+    rows.push_back({{"name", timer.name},
+                    {"rung", timer.rung},
+                    {"file", timer.file},
+                    {"line", timer.line},
+                    {"title", timer.title},
+                    {"unit", timer.runs != 0 ? "runs" : "us"}});
+    for (const auto& [key, value] :
+         {std::pair("elapsed", timer.elapsed), {"remaining", timer.remaining}, {"preset", timer.preset}})
+      if (value >= 0) rows.back()[key] = value;
+  }
+  return {{"timers", rows}};
 }
 
 // ---- profile -------------------------------------------------------------------------------------------------------

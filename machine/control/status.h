@@ -25,11 +25,14 @@ public:
   nlohmann::json greeting() const;
   nlohmann::json status();
   nlohmann::json map(const Peer& peer, const nlohmann::json& request);
+  // The timers that run.
+  nlohmann::json timers(const Peer& peer, const nlohmann::json& request);
   // Counters of a program that was built with --profile.
   nlohmann::json profile(const Peer& peer, const nlohmann::json& request);
 
 private:
   std::vector<host::Value> pinValues();
+  std::vector<rung_timer_info> runningTimers();
   std::vector<rung_profile> counters();
 
   PlcAccess& plc_;

@@ -52,7 +52,7 @@ std::vector<std::string> namesOf(const json& request) {
 void addAge(json& out, runtime::Clock& clock, int64_t ageNs) {
   constexpr int64_t kNsInUs = 1000, kNsInS = 1'000'000'000;
   out["us"] = ageNs / kNsInUs;
-  out["since"] = clock.dateS() - ageNs / kNsInS;
+  out["since"] = (clock.dateNs() - ageNs) / kNsInS;
 }
 
 std::string joined(const std::vector<std::string>& texts, const char* between) {

@@ -35,12 +35,16 @@ FunctionState FunctionQueue::state() const noexcept {
   return state;
 }
 
-void FunctionQueue::sample(Pins& pins, int64_t ns) noexcept {
+void FunctionQueue::age(int64_t ns) noexcept {
   late_ = false;
   for (uint32_t i = 0; i < count_; ++i) {
     calls_[i].ageNs += ns;
     late_ = late_ || isLate(calls_[i]);
   }
+}
+
+void FunctionQueue::sample(Pins& pins, int64_t ns) noexcept {
+  age(ns);
   // Aborts first, so that a function sent by the same event, such as a spindle stop, reaches the program at once.
   for (uint32_t i = 0; i < aborts_.size(); ++i) {
     const bool now = triggered(aborts_[i], pins);

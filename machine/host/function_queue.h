@@ -43,6 +43,8 @@ public:
   // Scan thread, in every step: detects edges, and an abort, which empties the queue and ends the functions in
   // progress. `ns`: time since the last call.
   void sample(Pins& pins, int64_t ns) noexcept;
+  // Scan thread, in every step while a fault has stopped the program: functions still wait.
+  void age(int64_t ns) noexcept;
   // Scan thread, before every slice of the program: begins and ends functions.
   void advance(Pins& pins) noexcept;
 

@@ -88,8 +88,9 @@ std::unique_ptr<PlcHost> PlcHost::make(const Image& image, File map, const Optio
   host->bindValues();
   host->functions_ = std::make_unique<FunctionQueue>(host->map_, host->plc_.handle());
   std::string problem;
-  host->record(warnings);
+  const std::string notRecorded = host->record();
   const int32_t status = host->start(problem);
+  if (status >= RUNG_OK && !notRecorded.empty()) warnings.push_back("nothing is recorded: " + notRecorded);
   std::ranges::move(host->logged_, std::back_inserter(warnings));
   host->logged_.clear();
   for (const Pin& pin : host->map_.pins)
@@ -132,15 +133,14 @@ void PlcHost::bind(const Link& link, Value& value, rung_direction direction, dou
   check(rung_instance_bind(plc_.handle(), &variable, 1));
 }
 
-// A program runs without its recording, too.
-void PlcHost::record(std::vector<std::string>& warnings) {
-  if (recordingFolder_.empty()) return;
+// A program runs without its recording, too. Returns why nothing is recorded; "": it is, or is not wanted.
+std::string PlcHost::record() {
+  if (recordingFolder_.empty()) return {};
   auto options = sized<rung_recording_options>();
   options.folder = recordingFolder_.c_str();
   options.limit_bytes = map_.recording.limitBytes;
   options.kept_bytes = map_.recording.keptBytes;
-  if (rung_instance_record(plc_.handle(), &options) != RUNG_OK)
-    warnings.push_back("nothing is recorded: " + std::string(rung_error_text()));
+  return rung_instance_record(plc_.handle(), &options) == RUNG_OK ? "" : rung_error_text();
 }
 
 // A fault at power-on is noticed in the first step.
@@ -334,8 +334,11 @@ bool PlcHost::beginStep(int64_t ns, bool reset) noexcept {
   wasReset_ = resets;
   commands_.take([this](Command& command) { return execute(command); });
   const State state = state_.load(std::memory_order_acquire);
-  if (state == State::Stopped && asked) state_.store(State::Restarting, std::memory_order_release);
-  if (state == State::Stopped) plc_.sample();
+  if (state == State::Stopped) {
+    functions_->age(ns);
+    plc_.sample();
+    if (asked) state_.store(State::Restarting, std::memory_order_release); // from now on `serve` has all of them
+  }
   if (state != State::Running) return false;
   if (!map_.axisGroups.empty()) plc_.serving(live_.served.load(std::memory_order_acquire));
   pins_.read();

@@ -167,7 +167,7 @@ private:
   template <class Link>
   void bind(const Link& link, Value& value, rung_direction direction, double scale);
   void bindValues();
-  void record(std::vector<std::string>& warnings);
+  std::string record();
   void beginWith(size_t link, bool first) noexcept;
   Value valueInProgram(const PinLink& link) noexcept;
   void setPins(const PinLink& link, const Value& value) noexcept;

@@ -156,19 +156,21 @@ std::string textOf(const json& entries) {
   return text.empty() ? "the log has no such entries" : text;
 }
 
-// The entries of the files, in which those in the memory of the host are newer.
+// The entries of the files, in which those in the memory of the host are newer. The file may have others that came
+// after the host's answer: whether they are on is not known here.
 std::vector<json> merged(const control::LogInFiles& files, const json& ofHost) {
   std::map<uint64_t, json> byNumber;
-  for (const control::LogEntry& entry : files.entries) byNumber[entry.number] = control::jsonOf(entry);
+  const uint64_t last = ofHost.empty() ? UINT64_MAX : ofHost.back().value("n", uint64_t{0});
+  for (const control::LogEntry& entry : files.entries)
+    if (entry.number <= last) byNumber[entry.number] = control::jsonOf(entry);
   for (const json& entry : ofHost) byNumber[entry.value("n", uint64_t{0})] = entry;
   std::vector<json> all;
   for (auto& [number, entry] : byNumber) all.push_back(std::move(entry));
   return all;
 }
 
-void warnOf(const control::LogInFiles& files, const std::string& path) {
-  if (files.wrongLines != 0)
-    fail(fmt::format("{} has lines that are not entries of a log, and are left out: {}", path, files.wrongLines));
+void warnOf(const control::LogInFiles& files) {
+  for (const std::string& text : files.wrong) fail(text);
 }
 
 void follow(Client& client, const Words& words, const Wanted& wanted, const volatile int& stop) {
@@ -192,7 +194,7 @@ int log(Client& client, const Words& words, const volatile int& stop) try {
   if (!answer.contains("file"))
     fail("this host keeps its log only in memory; --retain FILE (rung_hal: retain=FILE) keeps it in FILE.log");
   else
-    warnOf(files, answer["file"].get<std::string>());
+    warnOf(files);
   if (answer.contains("problem")) fail("the log is not kept on disk: " + shown(answer["problem"]));
   if (!files.problem.empty()) fail(files.problem + "; older entries are missing");
   if (words.follow) follow(client, words, wanted, stop);
@@ -206,11 +208,11 @@ int logFile(const Words& words) try {
   const Wanted wanted(words);
   const control::LogInFiles files = control::readLog(words.file);
   if (!files.found) return fail("there is no log " + words.file, cli::kEnvironment);
-  if (files.entries.empty() && files.problem.empty() && files.wrongLines != 0)
+  if (files.entries.empty() && files.problem.empty() && !files.wrong.empty())
     return fail(words.file + " is not a log of a host", cli::kEnvironment);
   const json answer = {{"ok", true}, {"entries", wanted.of(merged(files, json::array()))}};
   print(words, answer, textOf(answer["entries"]));
-  warnOf(files, words.file);
+  warnOf(files);
   return files.problem.empty() ? int{cli::kOk} : fail(files.problem, cli::kEnvironment);
 } catch (const std::invalid_argument& wrong) {
   return fail(wrong.what(), cli::kUsage);

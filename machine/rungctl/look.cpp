@@ -44,18 +44,18 @@ std::vector<Look::Pin> Observer::pinsOf(const json& map, Clock::time_point now) 
   return pins;
 }
 
-Look Observer::look(Client& client, const std::string& by) {
-  Look look;
+void Observer::look(Client& client, const Wanted& wanted, Look& look) {
   look.status = asked(client, {{"do", "status"}}, kPatience);
-  const json profile = client.ask({{"do", "profile"}, {"top", kMostRungs}, {"by", by}}, kPatience);
-  if (profile.value("ok", false) && profile.value("time_ns", 0.0) > 0) look.profile = profile;
+  const json profile = client.ask({{"do", "profile"}, {"top", kMostRungs}, {"by", wanted.rungsBy}}, kPatience);
+  const bool isCounted = profile.value("ok", false) && profile.value("time_ns", 0.0) > 0;
+  look.profile = isCounted ? profile : json();
+  look.timers = asked(client, {{"do", "timers"}}, kPatience)["timers"].get<std::vector<json>>();
   const json messages = asked(client, {{"do", "messages"}}, kPatience);
+  look.messages.clear();
   for (const json& entry : messages["entries"])
     if (entry.value("on", false)) look.messages.push_back(entry);
-  const json log = asked(client, {{"do", "log"}}, kPatience);
-  look.log = log["entries"].get<std::vector<json>>();
+  if (wanted.log) look.log = asked(client, {{"do", "log"}}, kPatience)["entries"].get<std::vector<json>>();
   look.pins = pinsOf(asked(client, {{"do", "map"}}, kPatience), Clock::now());
-  return look;
 }
 
 } // namespace rung::rungctl

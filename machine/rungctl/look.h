@@ -2,6 +2,7 @@
 #pragma once
 #include <chrono>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,10 +22,11 @@ struct Look {
     uint64_t changes = 0;
   };
   nlohmann::json status;
-  nlohmann::json profile;               // null: the program does not count its rungs, or they are not wanted
-  std::vector<nlohmann::json> messages; // that are on, the oldest first
-  std::vector<nlohmann::json> log;      // the newest last
-  std::vector<Pin> pins;                // in the order of the mapping file
+  nlohmann::json profile;                         // null: the program does not count its rungs, or they are not wanted
+  std::vector<nlohmann::json> timers;             // that run
+  std::vector<nlohmann::json> messages;           // that are on, the oldest first
+  std::optional<std::vector<nlohmann::json>> log; // the newest last; nothing: it was never asked for
+  std::vector<Pin> pins;                          // in the order of the mapping file
 };
 
 // Asks a host again and again.
@@ -33,8 +35,12 @@ public:
   static constexpr unsigned kMostRungs = 200;
   static constexpr std::chrono::seconds kPatience{3}; // for each answer
 
-  // Throws std::runtime_error if the host does not answer. `by`: how rungs are sorted, "time" or "longest".
-  Look look(Client& client, const std::string& by);
+  struct Wanted {
+    std::string rungsBy = "time"; // or "longest"
+    bool log = true;
+  };
+  // Asks for what is wanted; what is not stays. Throws std::runtime_error if the host does not answer.
+  void look(Client& client, const Wanted& wanted, Look& look);
 
 private:
   using Clock = std::chrono::steady_clock;

@@ -296,7 +296,7 @@ int recording(Client& client, const Words& words) {
   if (const auto losses = answer.value("losses", uint64_t{0}); losses != 0)
     text += fmt::format("{} {} since the start of the host\n", losses, losses == 1 ? "gap" : "gaps");
   if (answer.contains("problem")) text += "nothing is recorded now: " + shown(answer["problem"]) + "\n";
-  if (words.all) text += "the files of now are kept\n";
+  if (words.all) text += "the present files are kept\n";
   print(words, answer, text);
   return cli::kOk;
 }
@@ -330,7 +330,7 @@ constexpr Row kCommands[] = {
            .required();
      },
      nullptr, verify},
-    {"top", "Show scan times, costly rungs, changed pins, messages and what waits, once a second",
+    {"top", "Show scan times, costly rungs, timers, changed pins, messages and what waits, once a second",
      [](cli::Command& command, Words& words) { command.flag("--once", words.once, "Print all of it once, as text"); },
      nullptr, [](const Words& words) { return top(words, gStop); }},
     {"get", "Show values at the end of a scan", namesOption, get},
@@ -348,10 +348,10 @@ constexpr Row kCommands[] = {
      },
      trace},
     {"set", "Write a value to a variable once", valueOptions, set},
-    {"mark", "Write a text into the recording of the program, and keep its files of now",
+    {"mark", "Write a text into the recording of the program, and keep its present files",
      [](cli::Command& command, Words& words) { command.option("TEXT", words.value, "The text").required(); }, mark},
     {"recording", "Show where the program is recorded, since when, and what was lost",
-     [](cli::Command& command, Words& words) { command.flag("--keep", words.all, "Keep the files of now"); },
+     [](cli::Command& command, Words& words) { command.flag("--keep", words.all, "Keep the present files"); },
      recording},
     {"event", "Trigger an event of the control that rung-run simulates",
      [](cli::Command& command, Words& words) {

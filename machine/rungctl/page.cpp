@@ -73,6 +73,12 @@ Lines headOf(const Look& look, const std::string& problem) {
 
 // ---- sections ------------------------------------------------------------------------------------------------------
 
+// The place of a rung as it was drawn.
+std::string placeOf(const json& rung) {
+  const std::string title = rung.value("title", "");
+  return fmt::format("{}:{}{}", nameOf(shown(rung["file"])), rung["line"].dump(), title.empty() ? "" : "  " + title);
+}
+
 Lines rungsOf(const Look& look) {
   if (look.profile.is_null())
     return {{"the program does not count its rungs: build it with `rungc build --profile`, or", Style::Faint},
@@ -82,12 +88,26 @@ Lines rungsOf(const Look& look) {
   for (const json& rung : look.profile["rungs"]) {
     const auto runs = rung.value("executions", uint64_t{0});
     const double time = rung.value("time_ns", 0.0);
-    const std::string title = rung.value("title", "");
-    lines.push_back({fmt::format("{:>6} {:>5.1f}% {:>9.1f} {:>9.1f} {:>11}  {}:{}{}", rung["rung"].dump(),
+    lines.push_back({fmt::format("{:>6} {:>5.1f}% {:>9.1f} {:>9.1f} {:>11}  {}", rung["rung"].dump(),
                                  whole > 0 ? 100 * time / whole : 0, runs == 0 ? 0 : time / static_cast<double>(runs),
-                                 rung.value("max_ns", 0.0), runs, nameOf(shown(rung["file"])), rung["line"].dump(),
-                                 title.empty() ? "" : "  " + title)});
+                                 rung.value("max_ns", 0.0), runs, placeOf(rung))});
   }
+  return lines;
+}
+
+std::string timeOf(const json& timer, const char* key) {
+  if (!timer.contains(key)) return "?";
+  if (timer.value("unit", "") == "runs") return timer[key].dump() + " runs";
+  return fmt::format("{:.3f} s", timer[key].get<double>() / 1e6);
+}
+
+Lines timersOf(const Look& look) {
+  Lines lines;
+  for (const json& timer : look.timers)
+    lines.push_back(
+        {fmt::format("{:<20} {:>12} of {:>12} {:>12} left  {}", shown(timer["name"]), timeOf(timer, "elapsed"),
+                     timeOf(timer, "preset"), timeOf(timer, "remaining"), placeOf(timer))});
+  if (lines.empty()) lines.push_back({"no timer runs", Style::Faint});
   return lines;
 }
 
@@ -123,10 +143,10 @@ Lines entriesOf(const std::vector<json>& entries, const char* none, bool newestF
   return lines;
 }
 
-Lines waitingOf(const Look& look) {
+Lines waitingLinesOf(const Look& look) {
   Lines lines;
-  for (const std::string& text : waitingLines(look.status))
-    lines.push_back({text, text.find("timeout") == std::string::npos ? Style::Plain : Style::Alarm});
+  for (const Waiting& waiting : waitingOf(look.status))
+    lines.push_back({waiting.text, waiting.late ? Style::Alarm : Style::Plain});
   if (lines.empty()) lines.push_back({"nothing waits", Style::Faint});
   return lines;
 }
@@ -136,6 +156,7 @@ std::string headingOf(Section section, const View& view) {
   case Section::Overview: return "";
   case Section::Rungs:
     return fmt::format("RUNGS by {}:  rung, share, mean ns, longest ns, runs", view.byLongest ? "longest run" : "time");
+  case Section::Timers: return "TIMERS that run:  elapsed, preset, remaining, rung";
   case Section::Pins: return fmt::format("PINS by {}:  value, before, changed", view.byLongest ? "name" : "change");
   case Section::Messages: return "MESSAGES that are on";
   case Section::Waiting: return "WAITING functions and requests";
@@ -148,10 +169,13 @@ Lines linesOf(const Look& look, Section section, const View& view) {
   switch (section) {
   case Section::Overview: return {};
   case Section::Rungs: return rungsOf(look);
+  case Section::Timers: return timersOf(look);
   case Section::Pins: return pinsOf(look, view.byLongest);
   case Section::Messages: return entriesOf(look.messages, "no message is on", false);
-  case Section::Waiting: return waitingOf(look);
-  case Section::Log: return entriesOf(look.log, "nothing has happened", true);
+  case Section::Waiting: return waitingLinesOf(look);
+  case Section::Log:
+    return look.log ? entriesOf(*look.log, "nothing has happened", true)
+                    : Lines{{"not known: the connection has ended before it was asked for", Style::Faint}};
   }
   return {};
 }
@@ -167,7 +191,7 @@ void addSome(Lines& page, const Look& look, const View& view, Section section, s
 
 void addOverview(Lines& page, const Look& look, const View& view, size_t room) {
   constexpr std::pair<Section, size_t> kParts[] = {
-      {Section::Messages, 4}, {Section::Waiting, 3}, {Section::Rungs, 6}, {Section::Pins, 7}}; // of 24 lines
+      {Section::Messages, 4}, {Section::Waiting, 3}, {Section::Timers, 3}, {Section::Rungs, 4}, {Section::Pins, 6}};
   constexpr size_t kAll = 20;
   for (const auto& [section, lines] : kParts)
     addSome(page, look, view, section, std::max<size_t>(room * lines / kAll, 2) - 1);
@@ -183,7 +207,7 @@ void addSection(Lines& page, const Look& look, const View& view, size_t room) {
               lines.begin() + static_cast<std::ptrdiff_t>(end));
 }
 
-constexpr const char* kKeys = "o overview  r rungs  p pins  m messages  w waiting  l log  s sort  up/down  q quit";
+constexpr const char* kKeys = "o overview  r rungs  t timers  p pins  m messages  w waiting  l log  s sort  q quit";
 
 } // namespace
 
@@ -215,7 +239,8 @@ std::vector<Line> pageOf(const Look& look, const View& view, const std::string& 
 
 std::string wholeText(const Look& look) {
   Lines lines = headOf(look, "");
-  for (const Section section : {Section::Messages, Section::Waiting, Section::Rungs, Section::Pins, Section::Log})
+  for (const Section section :
+       {Section::Messages, Section::Waiting, Section::Timers, Section::Rungs, Section::Pins, Section::Log})
     addSome(lines, look, {}, section, section == Section::Log ? 20 : Observer::kMostRungs);
   std::string text;
   for (const Line& line : lines) text += text::withoutControls(line.text) + "\n";

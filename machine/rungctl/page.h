@@ -8,8 +8,8 @@
 
 namespace rung::rungctl {
 
-enum class Section : uint8_t { Overview, Rungs, Pins, Messages, Waiting, Log };
-inline constexpr size_t kSections = 6;
+enum class Section : uint8_t { Overview, Rungs, Timers, Pins, Messages, Waiting, Log };
+inline constexpr size_t kSections = 7;
 
 // What a user has chosen.
 struct View {

@@ -4,6 +4,7 @@
 #include <span>
 #include <string_view>
 
+#include "machine/control/changes.h"
 #include "machine/rungctl/words.h"
 #include "rtlib/change/rung_alignment.h"
 #include "rtlib/text/number.h"
@@ -42,18 +43,16 @@ std::vector<runtime::RungMark> marksOf(const ProgramTables& tables) {
 
 ProgramTables tablesOf(Client& client) {
   const json answer = asked(client, {{"do", "program"}});
-  const json& parts = answer.at("parts");
+  runtime::ProgramParts parts;
+  for (const runtime::ProgramPart& part : runtime::kProgramParts)
+    parts.*part.hash = hashOf(answer.at("parts").at(part.name));
   return {.name = answer.at("program").get<std::string>(),
           .dialect = answer.at("dialect").get<std::string>(),
           .compiler = answer.at("compiler").get<std::string>(),
           .code = hashOf(answer.at("code")),
           .instrumented = answer.at("instrumented").get<bool>(),
           .files = answer.at("files").get<std::vector<std::string>>(),
-          .parts = {.memory = hashOf(parts.at("memory")),
-                    .names = hashOf(parts.at("names")),
-                    .contents = hashOf(parts.at("contents")),
-                    .messages = hashOf(parts.at("messages")),
-                    .schedule = hashOf(parts.at("schedule"))},
+          .parts = parts,
           .rungs = {}};
 }
 
@@ -94,22 +93,14 @@ ProgramDifference difference(const ProgramTables& before, const ProgramTables& a
        runtime::changedRungs(marksBefore, marksAfter, runtime::alignRungs(marksBefore, marksAfter))) {
     const bool removed = change.after == RUNG_NONE;
     const ProgramTables::Rung& rung = removed ? before.rungs[change.before] : after.rungs[change.after];
-    const char* kind = change.kind == runtime::RungKind::Moved ? "moved" : "changed";
-    if (change.before == RUNG_NONE) kind = "new";
-    found.rungs.push_back({{"kind", removed ? "removed" : kind},
+    found.rungs.push_back({{"kind", control::rungChangeName(runtime::changeKind(change))},
                            {"rung", rung.number},
                            {"title", rung.title},
                            {"file", rung.file},
                            {"line", rung.line}});
   }
-  const auto compare = [&](const char* name, uint64_t runtime::ProgramParts::* part) {
-    if (before.parts.*part != after.parts.*part) found.parts.emplace_back(name);
-  };
-  compare("memory", &runtime::ProgramParts::memory);
-  compare("names", &runtime::ProgramParts::names);
-  compare("contents", &runtime::ProgramParts::contents);
-  compare("messages", &runtime::ProgramParts::messages);
-  compare("schedule", &runtime::ProgramParts::schedule);
+  for (const runtime::ProgramPart& part : runtime::kProgramParts)
+    if (before.parts.*part.hash != after.parts.*part.hash) found.parts.push_back(&part);
   return found;
 }
 

@@ -40,7 +40,7 @@ ProgramTables tablesOf(const rung_program& program);
 
 struct ProgramDifference {
   nlohmann::json rungs = nlohmann::json::array(); // as in the answer to `reload`
-  std::vector<std::string> parts;                 // "names", …
+  std::vector<const runtime::ProgramPart*> parts;
   bool none() const { return rungs.empty() && parts.empty(); }
 };
 // The changes from the first program to the second.

@@ -60,22 +60,23 @@ std::string ageOf(const json& one) {
 }
 
 // M, S and T functions in progress or queued: one line each, the oldest first.
-std::vector<std::string> functionsOf(const json& answer) {
-  std::vector<std::string> lines;
+std::vector<Waiting> functionsOf(const json& answer) {
+  std::vector<Waiting> lines;
   const json functions = answer.value("functions", json::object());
   const json oldest = functions.value("oldest", json::array());
   for (const json& one : oldest) {
     const uint64_t channel = one.value("channel", uint64_t{1});
-    lines.push_back(fmt::format("{}{}{}: {} {}{}", shown(one["function"]), one["code"].dump(),
-                                channel == 1 ? "" : fmt::format(" in channel {}", channel),
-                                one.value("begun", false) ? "not finished by the program" : "waits for its turn",
-                                ageOf(one),
-                                one.value("late", false) ? ", longer than the timeout of the mapping file" : ""));
+    const bool late = one.value("late", false);
+    lines.push_back({fmt::format("{}{}{}: {} {}{}", shown(one["function"]), one["code"].dump(),
+                                 channel == 1 ? "" : fmt::format(" in channel {}", channel),
+                                 one.value("begun", false) ? "not finished by the program" : "waits for its turn",
+                                 ageOf(one), late ? ", longer than the timeout of the mapping file" : ""),
+                     late});
   }
   const auto count = functions.value("count", uint64_t{0});
-  if (count > oldest.size()) lines.push_back(fmt::format("and {} more functions", count - oldest.size()));
+  if (count > oldest.size()) lines.push_back({fmt::format("and {} more functions", count - oldest.size())});
   const auto lost = functions.value("lost", uint64_t{0});
-  if (lost != 0) lines.push_back(fmt::format("functions lost since the host started: {}", lost));
+  if (lost != 0) lines.push_back({fmt::format("functions lost since the host started: {}", lost)});
   return lines;
 }
 
@@ -90,14 +91,14 @@ std::string requestOf(const json& one) {
 }
 
 // Requests of the program to its CNC: one line each, the oldest first.
-std::vector<std::string> requestsOf(const json& answer) {
-  std::vector<std::string> lines;
+std::vector<Waiting> requestsOf(const json& answer) {
+  std::vector<Waiting> lines;
   const json requests = answer.value("requests", json::object());
   const json oldest = requests.value("oldest", json::array());
   for (const json& one : oldest)
-    lines.push_back(fmt::format("{}: not answered by the CNC {}", requestOf(one), ageOf(one)));
+    lines.push_back({fmt::format("{}: not answered by the CNC {}", requestOf(one), ageOf(one))});
   if (const auto count = requests.value("count", uint64_t{0}); count > oldest.size())
-    lines.push_back(fmt::format("and {} more requests", count - oldest.size()));
+    lines.push_back({fmt::format("and {} more requests", count - oldest.size())});
   return lines;
 }
 
@@ -119,8 +120,8 @@ std::string stateText(const json& answer) {
   return answer.value("faulted", false) ? stopOf(answer) : runningOf(answer);
 }
 
-std::vector<std::string> waitingLines(const json& status) {
-  std::vector<std::string> lines = functionsOf(status);
+std::vector<Waiting> waitingOf(const json& status) {
+  std::vector<Waiting> lines = functionsOf(status);
   std::ranges::move(requestsOf(status), std::back_inserter(lines));
   return lines;
 }
@@ -132,7 +133,7 @@ int status(Client& client, const Words& words) {
                      stateText(answer);
   if (const auto forced = answer.value("forced", size_t{0}); forced != 0)
     text += fmt::format("{} forced: see rungctl forced\n", forced);
-  for (const std::string& line : waitingLines(answer)) text += line + "\n";
+  for (const Waiting& waiting : waitingOf(answer)) text += waiting.text + "\n";
   print(words, answer, text + clockOf(answer) + connectionsOf(answer));
   return cli::kOk;
 }

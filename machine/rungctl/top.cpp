@@ -46,7 +46,10 @@ private:
     client_ = std::make_unique<Client>(host_, Observer::kPatience);
     host_ = client_->greeting().value("host", host_); // the same one when it is back
   }
-  void update() { look_ = observer_.look(*client_, view_.byLongest ? "longest" : "time"); }
+  void update() {
+    observer_.look(*client_, {.rungsBy = view_.byLongest ? "longest" : "time", .log = view_.section == Section::Log},
+                   look_);
+  }
 
   void refresh() try {
     if (client_ == nullptr) connect();
@@ -57,7 +60,10 @@ private:
     problem_ = std::string("NO CONNECTION, values are old: ") + error.what();
   }
 
-  void show(Section section) { view_ = {.section = section}; }
+  void show(Section section) {
+    view_ = {.section = section};
+    if (client_ != nullptr) refresh();
+  }
 
   void press(const Screen::Pressed& pressed, size_t height) {
     using Key = Screen::Key;
@@ -77,7 +83,8 @@ private:
   void scrollDown(size_t lines) { view_.scrolled = std::min(view_.scrolled + lines, most()); }
   // More than any section has lines that are not shown.
   size_t most() const {
-    return std::max({look_.pins.size(), look_.log.size(), look_.messages.size(), size_t{Observer::kMostRungs}});
+    return std::max({look_.pins.size(), look_.timers.size(), look_.log ? look_.log->size() : 0, look_.messages.size(),
+                     size_t{Observer::kMostRungs}});
   }
 
   void pressLetter(char letter) {
@@ -86,6 +93,7 @@ private:
     case 'r': show(Section::Rungs); break;
     case 'p': show(Section::Pins); break;
     case 'm': show(Section::Messages); break;
+    case 't': show(Section::Timers); break;
     case 'w': show(Section::Waiting); break;
     case 'l': show(Section::Log); break;
     case 's':
@@ -112,9 +120,15 @@ private:
 int top(const Words& words, const volatile int& stop) try {
   if (!words.once && !words.common.asJson) return Top(words, stop).run();
   Client client(words.common.host);
-  const Look look = Observer().look(client, "time");
-  nlohmann::json answer = {{"ok", true},      {"status", look.status},   {"messages", look.messages},
-                           {"log", look.log}, {"profile", look.profile}, {"pins", nlohmann::json::array()}};
+  Look look;
+  Observer().look(client, {}, look);
+  nlohmann::json answer = {{"ok", true},
+                           {"status", look.status},
+                           {"messages", look.messages},
+                           {"log", *look.log},
+                           {"profile", look.profile},
+                           {"timers", look.timers},
+                           {"pins", nlohmann::json::array()}};
   for (const Look::Pin& pin : look.pins)
     answer["pins"].push_back({{"name", pin.name}, {"value", pin.value}, {"uses", pin.uses}});
   print(words, answer, wholeText(look));

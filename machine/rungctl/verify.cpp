@@ -103,15 +103,6 @@ ProgramTables given(const Words& words, const ProgramTables& machine) {
 
 std::string hexOf(uint64_t code) { return text::hexOfNumber(code, sizeof code); }
 
-// What differs besides rungs, in words.
-std::string partText(const std::string& part) {
-  if (part == "memory") return "the layout of the memory differs";
-  if (part == "names") return "names or constants differ: new ones, other addresses or values";
-  if (part == "contents") return "initial contents of the memory differ";
-  if (part == "messages") return "texts of messages differ";
-  return "the schedule of tasks differs";
-}
-
 // Why two programs are not the same although all that can be compared is equal.
 std::string elseText(const ProgramTables& machine, const ProgramTables& other) {
   if (machine.compiler != other.compiler)
@@ -145,9 +136,10 @@ int compare(const Words& words) {
   addRungs(client, machine);
   const ProgramDifference found = difference(machine, other);
   answer["rungs"] = found.rungs;
-  answer["parts"] = found.parts;
+  answer["parts"] = json::array();
+  for (const runtime::ProgramPart* part : found.parts) answer["parts"].push_back(part->name);
   for (const json& rung : found.rungs) text += rungLine(rung) + "\n";
-  for (const std::string& part : found.parts) text += partText(part) + "\n";
+  for (const runtime::ProgramPart* part : found.parts) text += std::string(part->difference) + "\n";
   if (found.none()) text += "no rung differs; " + elseText(machine, other) + "\n";
   print(words, answer, text);
   // A compiled program keeps the paths that it has; nothing else is known to differ.

@@ -89,10 +89,7 @@ rung_rung_change rungChangeOf(const rung_replacement& replacement, const runtime
   const bool removed = change.after == RUNG_NONE;
   const rung_program& program = replacement.program(removed != replacement.holdsFormer);
   const rung_info& rung = program.rungs[removed ? change.before : change.after];
-  uint32_t kind = change.kind == runtime::RungKind::Moved ? RUNG_RUNG_MOVED : RUNG_RUNG_CHANGED;
-  if (change.before == RUNG_NONE) kind = RUNG_RUNG_NEW;
-  if (removed) kind = RUNG_RUNG_REMOVED;
-  return {.kind = kind,
+  return {.kind = runtime::changeKind(change),
           .rung = rung.number,
           .line = rung.first_line,
           .file = rung.file < program.file_count ? program.files[rung.file] : "",

@@ -9,6 +9,7 @@
 #include "rtlib/api/instance.h"
 #include "rtlib/api/values.h"
 #include "rtlib/load/program_info.h"
+#include "rtlib/run/timer_state.h"
 
 namespace rung::api {
 
@@ -324,6 +325,31 @@ int32_t rung_instance_profile(const rung_instance* instance, uint32_t index, run
   if (call->running.profile().empty()) return failProfile();
   if (index >= call->running.profile().size()) return RUNG_EMPTY;
   return giveStruct(profile, profileOf(*call, index));
+}
+
+int32_t rung_instance_timer(const rung_instance* instance, uint32_t index, rung_timer_info* timer) {
+  const Call call(instance, When::Always);
+  if (!call.ok()) return call.status();
+  const rung_program& program = call->running.program();
+  if (index >= program.timer_count) return RUNG_EMPTY;
+  const rung_timer& entry = program.timers[index];
+  const runtime::TimerState state = runtime::stateOf(call->running.memory(), entry);
+  rung_timer_info out{.running = state.running ? 1u : 0u,
+                      .runs = (entry.flags & RUNG_TIMER_RUNS) != 0 ? 1u : 0u,
+                      .name = entry.name,
+                      .file = "",
+                      .title = "",
+                      .elapsed = state.elapsed,
+                      .remaining = state.remaining,
+                      .preset = state.preset};
+  if (entry.rung != RUNG_NONE) {
+    const rung_info& rung = program.rungs[entry.rung];
+    out.rung = rung.number;
+    out.line = rung.first_line;
+    out.title = rung.title;
+    if (rung.file < program.file_count) out.file = program.files[rung.file];
+  }
+  return giveStruct(timer, out);
 }
 
 int32_t rung_instance_clear_profile(rung_instance* instance) {

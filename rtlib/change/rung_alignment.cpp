@@ -10,6 +10,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "rung/runtime.h"
 #include "rung/types.hpp"
 
 namespace rung::runtime {
@@ -232,6 +233,12 @@ bool isFirstPiece(std::span<const RungMark> marks, uint32_t rung) {
 }
 
 } // namespace
+
+uint32_t changeKind(const RungChange& change) {
+  if (change.after == RUNG_NONE) return RUNG_RUNG_REMOVED;
+  if (change.before == RUNG_NONE) return RUNG_RUNG_NEW;
+  return change.kind == RungKind::Moved ? RUNG_RUNG_MOVED : RUNG_RUNG_CHANGED;
+}
 
 std::vector<RungChange> changedRungs(std::span<const RungMark> before, std::span<const RungMark> after,
                                      std::span<const RungPair> pairs) {

@@ -53,6 +53,8 @@ struct RungChange {
   uint32_t after = RUNG_NONE;        // index in the new version; RUNG_NONE: it was removed
 };
 
+uint32_t changeKind(const RungChange& change); // enum rung_rung_change_kind
+
 // The changed rungs in the order of the new version, then the removed ones. `pairs`: from alignRungs.
 std::vector<RungChange> changedRungs(std::span<const RungMark> before, std::span<const RungMark> after,
                                      std::span<const RungPair> pairs);

@@ -25,6 +25,7 @@ constexpr uint32_t kMostTimes = 1000;       // runs of a task by one step of the
 constexpr uint64_t kMostRuns = 100'000;     // runs of tasks in a scan
 constexpr uint64_t kLongestPassUs = 3'600'000'000;
 constexpr uint32_t kSpaceFlags = RUNG_SPACE_INPUT | RUNG_SPACE_OUTPUT | RUNG_SPACE_HIDDEN | RUNG_SPACE_ALLOCATED;
+constexpr uint32_t kTimerFlags = RUNG_TIMER_DOWN | RUNG_TIMER_RUNS;
 constexpr uint32_t kSymbolFlags = RUNG_SYMBOL_READONLY | RUNG_SYMBOL_HIDDEN | RUNG_SYMBOL_CONST | RUNG_SYMBOL_AREA;
 
 // A word or a number of a message. One function composes all messages, because code for each would be half the size of
@@ -54,8 +55,9 @@ public:
   std::string run() {
     for (void (Checker::*check)() :
          {&Checker::checkHead, &Checker::checkPresence, &Checker::checkSpaces, &Checker::checkSymbols,
-          &Checker::checkSlots, &Checker::checkContinuations, &Checker::checkMemory, &Checker::checkCopies,
-          &Checker::checkCode, &Checker::checkTasks, &Checker::checkSchedule, &Checker::checkTexts}) {
+          &Checker::checkSlots, &Checker::checkContinuations, &Checker::checkTimers, &Checker::checkMemory,
+          &Checker::checkCopies, &Checker::checkCode, &Checker::checkTasks, &Checker::checkSchedule,
+          &Checker::checkTexts}) {
       (this->*check)();
       if (!error_.empty()) break; // later checks rely on it
     }
@@ -139,6 +141,7 @@ private:
     present("symbols", p_.symbol_count, p_.symbols);
     present("slots", p_.slot_count, p_.slots);
     present("continuations", p_.continuation_count, p_.continuations);
+    present("timers", p_.timer_count, p_.timers);
     present("initial contents", p_.init_count, p_.inits);
     present("retained spans", p_.retain_count, p_.retains);
     present("safe spans", p_.safe_count, p_.safe_spans);
@@ -277,6 +280,32 @@ private:
         readable("continuation", i, c.points[k]);
       }
     }
+  }
+
+  void checkTimers() {
+    for (uint32_t i = 0; i < p_.timer_count && error_.empty(); ++i) {
+      const rung_timer& t = p_.timers[i];
+      named("timer", i, t.name);
+      if ((t.flags & ~kTimerFlags) != 0) failAt("timer", i, "has unknown flags ", t.flags);
+      if (t.rung != RUNG_NONE) index("timer", i, "rung", t.rung, p_.rung_count);
+      if (t.unit_count == 0 || t.units == nullptr) return failAt("timer", i, "has no units");
+      held("timer", i, t.units, t.unit_count);
+      if (t.time_type == 0) failAt("timer", i, "has no time");
+      checkTimerCell(i, t.time_type, t.time_space, t.time_at);
+      checkTimerCell(i, t.preset_type, t.preset_space, t.preset_at);
+      checkTimerCell(i, t.unit_type, t.unit_space, t.unit_at);
+      if (t.running_at != RUNG_NONE) inBlock("timer", i, t.running_at, 1);
+    }
+  }
+
+  void checkTimerCell(uint32_t number, uint32_t type, uint32_t space, uint32_t at) {
+    if (type == 0 || !error_.empty()) return;
+    if (type < RUNG_TYPE_I8 || type > RUNG_TYPE_I64) return failAt("timer", number, "has a cell of type ", type);
+    const uint32_t bytes = elementBits(type) / 8;
+    if (space == RUNG_NONE) return inBlock("timer", number, at, bytes);
+    index("timer", number, "space", space, p_.space_count);
+    if (error_.empty() && uint64_t{at} + bytes > p_.spaces[space].byte_count)
+      failAt("timer", number, "has a cell outside space ", space);
   }
 
   bool touchesSpace(const rung_span& span) const {

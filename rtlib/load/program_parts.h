@@ -15,6 +15,18 @@ struct ProgramParts {
   bool operator==(const ProgramParts&) const = default;
 };
 
+struct ProgramPart {
+  const char* name; // in the control protocol
+  uint64_t ProgramParts::* hash;
+  const char* difference; // what is said of two programs in which it differs
+};
+inline constexpr ProgramPart kProgramParts[] = {
+    {"memory", &ProgramParts::memory, "the layout of the memory differs"},
+    {"names", &ProgramParts::names, "names or constants differ: new ones, other addresses or values"},
+    {"contents", &ProgramParts::contents, "initial contents of the memory differ"},
+    {"messages", &ProgramParts::messages, "texts of messages differ"},
+    {"schedule", &ProgramParts::schedule, "the schedule of tasks differs"}};
+
 // The program has passed checkProgram.
 ProgramParts partsOf(const rung_program& program);
 

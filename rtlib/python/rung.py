@@ -156,6 +156,8 @@ Message = _record("Message", _abi.rung_message_info, "Of Instance.messages and .
                   op=_member_of(MessageOp))
 Profile = _record("Profile", _abi.rung_profile, "Of Instance.profile: a rung, how often and how long it ran. rung 0: the "
                   "compiler's.")
+Timer = _record("Timer", _abi.rung_timer_info, "Of Instance.timers, in microseconds, or runs of the instruction. rung 0: none; "
+                "negative: not known.", running=bool, runs=bool)
 Recording = _record("Recording", _abi.rung_recording_info, "Of Instance.recording. file empty: none is written now.")
 Sample = _record("Sample", _abi.rung_sample, "Of a Watch: when its values were so.")
 Report = _record("Report", _abi.rung_replacement_info, "Of Replacement.report.")
@@ -859,11 +861,11 @@ class Instance(_Closing):
         _call(_library.rung_instance_record, self, byref(options))
 
     def mark(self, text):
-        """Writes a text into the recording, and keeps its files of now. Error: WRONG_STATE, nothing is recorded."""
+        """Writes a text into the recording, and keeps its present files. Error: WRONG_STATE, nothing is recorded."""
         _call(_library.rung_instance_mark, self, text)
 
     def keep_recording(self):
-        """Keeps the files of the recording of now. Error: WRONG_STATE, nothing is recorded."""
+        """Keeps the present files of the recording. Error: WRONG_STATE, nothing is recorded."""
         _call(_library.rung_instance_keep_recording, self)
 
     def follow_recording(self):
@@ -877,6 +879,13 @@ class Instance(_Closing):
             return None
         _call(_library.rung_instance_recording, self, byref(info))
         return info.shown()
+
+    # -- timers --
+
+    def timers(self):
+        """The timers of the program, one Timer after the other, between two scans. Not among them are timers whose
+        place the program computes."""
+        return (entry.shown() for entry in _each(self, _library.rung_instance_timer, _abi.rung_timer_info))
 
     # -- profile --
 

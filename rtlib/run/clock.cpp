@@ -2,7 +2,6 @@
 #include "rtlib/run/clock.h"
 
 #include <chrono>
-#include <ctime>
 #include <thread>
 
 #include "rtlib/run/realtime.h"
@@ -14,7 +13,9 @@ namespace {
 class SystemClock final : public Clock {
 public:
   int64_t nowNs() noexcept override { return monotonicNs(); }
-  int64_t dateS() noexcept override { return std::time(nullptr); }
+  int64_t dateNs() noexcept override {
+    return std::chrono::nanoseconds(std::chrono::system_clock::now().time_since_epoch()).count();
+  }
   void sleep(int64_t ns) override { std::this_thread::sleep_for(std::chrono::nanoseconds(ns)); }
 };
 

@@ -14,9 +14,10 @@ namespace rung::runtime {
 class Clock {
 public:
   virtual ~Clock() = default;
-  virtual int64_t nowNs() noexcept = 0; // CLOCK_MONOTONIC
-  virtual int64_t dateS() noexcept = 0; // seconds since 1970, UTC
-  virtual void sleep(int64_t ns) = 0;   // gives the processor to other threads
+  virtual int64_t nowNs() noexcept = 0;  // CLOCK_MONOTONIC
+  virtual int64_t dateNs() noexcept = 0; // since 1970, UTC
+  virtual void sleep(int64_t ns) = 0;    // gives the processor to other threads
+  int64_t dateS() noexcept { return dateNs() / 1'000'000'000; }
 };
 
 Clock& systemClock() noexcept;

@@ -43,6 +43,7 @@ std::vector<Region> tablesOf(const rung_program& p) {
   add(p.symbols, p.symbol_count);
   add(p.slots, p.slot_count);
   add(p.continuations, p.continuation_count);
+  add(p.timers, p.timer_count);
   add(p.inits, p.init_count);
   add(p.retains, p.retain_count);
   add(p.safe_spans, p.safe_count);

@@ -21,14 +21,16 @@ struct Kind {
   int weight;
 };
 constexpr Kind kKinds[] = {
-    {"scan", 30},    {"turn", 20}, {"pin", 14},    {"stuck", 2},       {"reset-pin", 4}, {"save", 6},   {"full", 1},
-    {"room", 2},     {"off", 1},   {"cut", 1},     {"hang", 1},        {"goes-on", 2},   {"status", 4}, {"get", 3},
-    {"set", 3},      {"force", 4}, {"unforce", 3}, {"unforce-all", 1}, {"forced", 3},    {"reload", 5}, {"rollback", 3},
-    {"stop", 2},     {"start", 3}, {"reset", 3},   {"shadow", 2},      {"compared", 2},  {"watch", 2},  {"leave", 1},
-    {"messages", 1}, {"torn", 1},  {"link", 3},    {"far", 3},         {"serve", 3},     {"live", 4},   {"served", 4},
-    {"dead", 1},     {"wait", 1},
+    {"scan", 30},       {"turn", 20},    {"pin", 14},     {"stuck", 2},     {"reset-pin", 4}, {"save", 6},
+    {"full", 1},        {"room", 2},     {"off", 1},      {"cut", 1},       {"hang", 1},      {"goes-on", 2},
+    {"status", 4},      {"get", 3},      {"set", 3},      {"force", 4},     {"unforce", 3},   {"unforce-all", 1},
+    {"forced", 3},      {"reload", 5},   {"rollback", 3}, {"stop", 2},      {"start", 3},     {"reset", 3},
+    {"shadow", 2},      {"compared", 2}, {"watch", 2},    {"leave", 1},     {"messages", 1},  {"torn", 1},
+    {"link", 3},        {"far", 3},      {"serve", 3},    {"live", 4},      {"served", 4},    {"dead", 1},
+    {"wait", 1},        {"mark", 2},     {"keep", 1},     {"recording", 1}, {"timers", 3},    {"log", 1},
+    {"acknowledge", 1}, {"map", 1},
 };
-constexpr const char* kPins[] = {"go", "sets", "clears", "other", "ask", "wait"};
+constexpr const char* kPins[] = {"go", "sets", "clears", "other", "ask", "wait", "m6", "abort"};
 constexpr const char* kScans = "D100:4"; // SCANS as a whole
 constexpr const char* kCells[] = {"LAMP", "LATCH", "R1.0", "WAIT", kScans, "FAR"};
 constexpr const char* kPrograms[] = {"first", "above", "below", "plain", "wrong", "nowhere"};
@@ -76,6 +78,7 @@ private:
   void requestRollback(const Event& event);
   void requestStop(const Event& event);
   void requestOther(const Event& event);
+  void lookAtTimers(const json& answer);
   void happenToService(const Event& event);
   void requestForce(const Event& event);
   void requestUnforce(const Event& event);
@@ -387,16 +390,32 @@ void Model::act(const Event& event) {
   }
 }
 
+// LATE's timer is the only one, if the program has it.
+void Model::lookAtTimers(const json& answer) {
+  const json& timers = answer["timers"];
+  expect(timers.size() <= (programs_.versions()[runs_].remembers ? 1 : 0), "timers: " + timers.dump());
+  for (const json& timer : timers) {
+    expect(timer["name"] == "TMRB 1" && timer["preset"] == 40'000, "timer: " + timer.dump());
+    expect(timer["elapsed"] > 0 && timer["remaining"] > 0 &&
+               timer["elapsed"].get<int64_t>() + timer["remaining"].get<int64_t>() == 40'000,
+           "timer: " + timer.dump());
+  }
+}
+
 void Model::requestOther(const Event& event) {
   const std::string& what = event.what;
   json request = {{"do", what}};
   if (what == "get" || what == "watch") request["names"] = {event.name};
   if (what == "set")
     request.update({{"name", event.name}, {"value", event.name == kScans ? json(7) : json(event.value % 2 != 0)}});
+  if (what == "mark") request["text"] = event.name;
   if (what == "shadow") request.update({{"program", "/programs/" + event.name}, {"scans", 5}});
   const uint64_t before = counted_;
-  const bool done = ask(event, request).value("ok", false);
+  const json answer = ask(event, request);
+  const bool done = answer.value("ok", false);
   follow();
+  if (what == "timers" && done) lookAtTimers(answer);
+  if (what == "mark" || what == "keep" || what == "log") expect(done, what + " is refused: " + answer.dump());
   if (what == "reset" && done) expect(world_.host().running() || hasFaulted_, "restarted, and it does not run");
   if (what != "set" || event.name != kScans || !done) return;
   adopt(counted_ != before || stopped_); // a program that is stopped is kept, too
@@ -525,6 +544,7 @@ std::vector<Event> eventsOf(uint64_t seed, size_t count) {
     if (event.what == "reload" || event.what == "shadow") event.name = oneOf(kPrograms, random);
     for (const char* of : {"get", "set", "force", "unforce", "watch"})
       if (event.what == of) event.name = oneOf(kCells, random);
+    if (event.what == "mark") event.name = "mark " + std::to_string(events.size());
     events.push_back(event);
   }
   return events;

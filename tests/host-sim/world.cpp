@@ -29,6 +29,19 @@ lamp = { type = "bit", name = "LAMP" }
 latch = { type = "bit", name = "LATCH" }
 second = { type = "bit", name = "Y0.3" }
 beyond = { type = "bit", name = "BEYOND" }
+[[send]]
+pin = "m6"
+edge = "rise"
+function = "M"
+code = 6
+[[send]]
+pin = "m6"
+edge = "fall"
+function = "M"
+code = 7
+[[abort]]
+pin = "abort"
+edge = "rise"
 [shared-memory]
 name = "sim"
 timeout = 0.101

@@ -53,7 +53,7 @@ public:
 
   // ---- clock: the scan thread runs while somebody waits
   int64_t nowNs() noexcept override { return nowNs_; }
-  int64_t dateS() noexcept override { return kBegin + nowNs_ / 1'000'000'000; }
+  int64_t dateNs() noexcept override { return kBegin * 1'000'000'000 + nowNs_; }
   void sleep(int64_t ns) override { pass(ns); }
 
   // ---- what may happen

@@ -456,9 +456,8 @@ TEST_F(Component, MistakesAreReportedAndNothingIsLeft) {
     EXPECT_LT(hal.load(program, map, retain), 0);
     expectNothingLeft();
     const std::vector<std::string> lines = hal.lines();
-    std::string all;
-    for (size_t i = before; i < lines.size(); ++i) all += lines[i];
-    return lines.size() == before + 1 ? lines.back() : "not one line: " + all;
+    EXPECT_EQ(lines.size(), before + 1) << testing::PrintToString(lines);
+    return lines.empty() ? "" : lines.back();
   };
   EXPECT_THAT(mistake("", "tests/cnc/stuck.map"),
               HasSubstr("so=PROGRAM.so, or source=PROGRAM, and map=MAPPING_FILE are needed"));

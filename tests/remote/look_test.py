@@ -22,6 +22,7 @@ from remote_test import ENVIRONMENT, MAP, OK, PROGRAM, USAGE, WRONG, Host
 from screen import Screen
 
 BIN = Path(sys.argv[1]).resolve()
+EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 SAME, OTHER, UNKNOWN = 0, 1, 2
 
 
@@ -208,7 +209,49 @@ class Log(Retaining):
         (self.home / "mixed.log").write_bytes(b"\xff\xfe\n" + good.encode() + b'{"n":2,"kind":"dance","came":1,"text":""}\n[[[[\n')
         done = subprocess.run([BIN / "rungctl", "log", self.home / "mixed.log"], capture_output=True, text=True, env=self.environment)
         self.assertEqual((done.returncode, done.stdout.count("\n")), (OK, 1))
-        self.assertIn("has lines that are not entries of a log, and are left out: 3", done.stderr)
+        self.assertIn(f"{self.home / 'mixed.log'}: 3 lines are not entries of a log, and are left out; the first is line 1\n", done.stderr)
+
+    def test_a_damaged_log_of_a_running_host(self):
+        self.ctl("set", "D8:2", 1)
+        path = self.home / "kept.log"
+        self.wait(lambda: path.exists() and b"D8:2" in path.read_bytes())
+        with open(path, "r+b") as file:
+            file.write(b"\0" * 10)  # in the line of the start
+        Path(f"{path}.1").write_bytes(b'{"n":1,"kind":"set","came":1700000000,"text":"set A"}\nno entry\n')
+        self.begin_twice(path)
+        done = subprocess.run([BIN / "rungctl", "log"], capture_output=True, text=True, env=self.environment)
+        self.assertEqual(done.returncode, OK)
+        self.assertIn(": set D8:2 from 0 to 1\n", done.stdout)
+        self.assertEqual(sorted(done.stderr.splitlines()), [f"rungctl: {path}.1: line 2 is not an entry of a log, and is left out",
+                                                            f"rungctl: {path}: line 1 is not an entry of a log, and is left out"])
+
+    def begin_twice(self, path):
+        self.end()
+        self.begin_again()
+        self.wait(lambda: f"{path} has lines that do not belong to a log: 2" in self.ctl("log"))
+
+    def test_two_clients(self):
+        followers = [subprocess.Popen([BIN / "rungctl", "log", "--follow", "-n", "1", "--kind", "message", "--kind", "acknowledge"],
+                                      stdout=subprocess.PIPE, text=True, env=self.environment) for _ in range(2)]
+        for following in followers:
+            self.addCleanup(following.stdout.close)
+            self.addCleanup(following.wait)
+            self.addCleanup(following.kill)
+            following.stdout.readline()
+        made, lines = self.connect()
+        lines.readline()
+        self.ctl("set", "X0.4", 1)
+        self.wait(lambda: "message 4" in self.ctl("messages", "--on"))
+        made.sendall(b'{"do":"acknowledge"}\n')
+        self.assertEqual(json.loads(lines.readline())["acknowledged"], ["message 4"])
+        self.assertEqual(self.ctl("messages", "--acknowledge"), "no message is on that was not acknowledged\n")
+        self.ctl("set", "X0.4", 0)
+        for following in followers:
+            seen = [following.stdout.readline() for _ in range(4)]
+            self.assertRegex(seen[0], " - on now    message 4\n$")
+            self.assertRegex(seen[1], r" - on now    message 4, acknowledged (\S+ )?\d\d:\d\d:\d\d\n$")
+            self.assertIn(": acknowledge message 4\n", seen[2])
+            self.assertRegex(seen[3], r" - (\S+ )?\d\d:\d\d:\d\d  message 4, acknowledged ")
 
     def test_the_messages_of_an_earlier_version(self):
         self.end()
@@ -378,6 +421,69 @@ class Waiting(unittest.TestCase):
         self.waits("technol", change)
 
 
+class WaitingThroughChanges(Host):
+    """A function that is never finished, while a fault stops the program, another program takes over, and after a restart."""
+
+    def setUp(self):
+        self.port = free_port()
+        self.map = FUNCTION_MAP.replace("PORT", str(self.port)) + MAP.replace("[in]\nrun = { type = \"bit\", name = \"X0.0\" }\n", "")
+        os.environ["RUNG_COMPILE"] = str(BIN / "rung-compile")
+        super().setUp()
+        self.wait(lambda: "running: " in self.ctl("status"))
+
+    def functions(self):
+        return json.loads(self.ctl("status", "--json"))["functions"]
+
+    def begin(self):
+        with socket.create_connection(("127.0.0.1", self.port)) as made:
+            for value in (0, 0xFF00):
+                made.sendall(struct.pack(">HHHBBHH", 1, 0, 6, 1, 5, 0, value))
+                self.assertEqual(len(made.recv(100)), 12)
+                self.pass_by(10)
+        self.wait(lambda: self.functions()["count"] == 1)
+        function, = self.functions()["oldest"]
+        self.assertEqual((function["function"], function["code"]), ("M", 6))
+        return function
+
+    def longer(self, before):
+        """It waits since the same time, and for longer than before."""
+        function, = self.functions()["oldest"]
+        self.assertGreater(function["us"], before["us"])
+        self.assertLessEqual(abs(function["since"] - before["since"]), 1)
+        return function
+
+    def test_what_waits_goes_on_waiting(self):
+        function = self.begin()
+        for _ in range(3):
+            self.pass_by(20)
+            function = self.longer(function)
+        other = self.program_with("LD   X0.0", "LDI  X0.0")
+        self.ctl("reload", other)
+        function = self.longer(function)
+        self.ctl("rollback")
+        function = self.longer(function)
+        self.ctl("stop")
+        for _ in range(2):
+            time.sleep(0.05)
+            function = self.longer(function)
+        self.ctl("start")
+        self.ctl("set", "X0.1", 1)
+        self.wait(lambda: "stopped by a fault" in self.ctl("status"))
+        for _ in range(3):  # a fault finishes nothing
+            time.sleep(0.05)
+            function = self.longer(function)
+        self.wait(lambda: self.functions()["oldest"][0]["late"])
+        self.assertRegex(self.ctl("status"), r"\nM6: .* for \d+\.\d{3} s, since .*, longer than the timeout of the mapping file\n")
+        before = int(time.time())
+        self.ctl("set", "X0.1", 0)
+        self.ctl("reset")
+        self.wait(lambda: "running: " in self.ctl("status"))
+        self.wait(lambda: self.functions()["count"] == 1)  # its pin is still on
+        function, = self.functions()["oldest"]
+        self.assertGreaterEqual(function["since"], before - 1)
+        self.longer(function)
+
+
 WINDOW = """dialect gsk
 FUNC END1
 LD   X0.0
@@ -437,6 +543,32 @@ class Verify(Host):
         self.assertRegex(self.verify(more, status=OTHER), r"\nnew rung \d+, \S+other\.pmc:\d+\n")
         names = self.program_with("symbol GUARD X0.2", "symbol GUARD X0.3")
         self.assertIn("names or constants differ", self.verify(names, status=OTHER))
+
+    def test_with_forces(self):
+        self.ctl("force", "D8:2", 7)
+        self.verify(self.program, status=SAME)
+        other = self.program_with("LD   X0.0", "LDI  X0.0")
+        self.assertIn("changed rung 1", self.verify(other, status=OTHER))
+        self.ctl("unforce", "--all")
+        self.verify(self.program, status=SAME)
+
+    def test_files_that_cannot_be_read(self):
+        cannot = "unknown whether the machine runs this program: "
+        (self.home / "locked.pmc").write_text(PROGRAM)
+        (self.home / "folder.so").mkdir(exist_ok=True)
+        whole = Path(self.program).read_bytes()
+        (self.home / "half.so").write_bytes(whole[:len(whole) // 2])
+        (self.home / "empty.so").write_bytes(b"")
+        os.mkfifo(self.home / "pipe.so")
+        self.addCleanup((self.home / "pipe.so").unlink)
+        for name in ("folder.so", "half.so", "empty.so", "pipe.so", "none/none.pmc"):
+            text = self.verify(self.home / name, status=UNKNOWN)
+            self.assertIn(cannot, text)
+            self.assertIn(str(self.home / name), text)
+            answer = json.loads(subprocess.run([BIN / "rungctl", "verify", self.home / name, "--json"], capture_output=True, text=True,
+                                               env=self.environment, timeout=patience()).stdout)
+            self.assertFalse(answer["ok"])
+            self.assertIn(name.split("/")[-1], answer["error"])
 
     def test_what_cannot_be_compared(self):
         cannot = "rungctl: unknown whether the machine runs this program: "
@@ -544,6 +676,144 @@ class VerifyDialects(unittest.TestCase):
 
     def test_technol(self):
         self.verify("technol", "pump.plc", "        LA   MOTOR_OK\n", "        LA   -MOTOR_OK\n")
+
+
+class VerifyExamples(unittest.TestCase):
+    """Examples with files that they include and files of their control, in another folder."""
+
+    def verify(self, example, *changes):
+        """Each change is a file, what is in it and what is in its place, and what is said then."""
+        with tempfile.TemporaryDirectory() as folder:
+            home = Path(folder)
+            environment = {**os.environ, "RUNG_SOCKETS": str(home / "sockets"), "RUNG_COMPILE": str(BIN / "rung-compile")}
+
+            def ctl(*words):
+                done = subprocess.run([BIN / "rungctl", *words], capture_output=True, text=True, env=environment, timeout=patience())
+                return done.returncode, done.stdout + done.stderr
+
+            subprocess.run([BIN / "rungc", "build", "-q", EXAMPLES / example, "-o", home / "p.so"], check=True)
+            (home / "p.map").write_text("")
+            copy = home / "copy"
+            shutil.copytree(EXAMPLES / example, copy)
+            subprocess.run([BIN / "rungc", "key", "new", home / "maker"], check=True, stdout=subprocess.DEVNULL)
+            shutil.copy(home / "p.so", home / "signed.so")
+            subprocess.run([BIN / "rungc", "seal", "--sign", home / "maker", home / "signed.so"], check=True, stdout=subprocess.DEVNULL)
+            with running([BIN / "rung-run", home / "p.so", home / "p.map"], environment):
+                self.assertTrue(wait_until(lambda: ctl("status")[0] == OK))
+                self.assertEqual(ctl("verify", home / "signed.so")[0], SAME)
+                self.assertEqual(ctl("verify", copy)[0], SAME, ctl("verify", copy))
+                for name, before, after, expected in changes:
+                    with self.subTest(name=name):
+                        text = (copy / name).read_text()
+                        self.assertIn(before, text)
+                        (copy / name).write_text(text.replace(before, after, 1))
+                        status, said = ctl("verify", copy)
+                        self.assertEqual(status, OTHER, said)
+                        self.assertRegex(said, expected)
+                        (copy / name).unlink()
+                        status, said = ctl("verify", copy)
+                        self.assertEqual(status, UNKNOWN, said)
+                        self.assertIn(name, said)
+                        (copy / name).write_text(text)
+
+    def test_technol(self):
+        self.verify("technol-machining-centre",
+                    ("centre.inc", "EQUI T_CONTACTOR,25", "EQUI T_CONTACTOR,26", r"\nchanged rung \d+.*/copy/\w+\.plc:\d+\n"),
+                    ("centre.PlcConstants", "<Constant ID=\"CMD_PARTS\"", "<Constant ID=\"CMD_OTHER\" Value=\"PLCCOMMAND\"/>\n<Constant ID=\"CMD_PARTS\"",
+                     r"\nnames or constants differ"))
+
+    def test_gsk(self):
+        self.verify("gsk-mill", ("mill.msg", "NO HYDRAULIC PRESSURE", "NO PRESSURE", r"\ntexts of messages differ\n"))
+
+
+class Timers(unittest.TestCase):
+    """The timers of each dialect that run, as top shows them."""
+
+    def timers(self, name, source, *settings, config=()):
+        """Runs the program with these cells set; returns the timers of `top`, and their lines."""
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        home = Path(folder.name)
+        self.environment = {**os.environ, "RUNG_SOCKETS": str(home / "sockets")}
+        (home / name).write_text(source)
+        subprocess.run([BIN / "rungc", "build", "-q", *config, home / name, "-o", home / "p.so"], check=True, stderr=subprocess.DEVNULL)
+        (home / "p.map").write_text('[rungctl]\npermissions = ["set", "stop", "start"]\n')
+        host = subprocess.Popen([BIN / "rung-run", home / "p.so", home / "p.map"], env=self.environment, stderr=subprocess.DEVNULL)
+        self.addCleanup(host.wait)
+        self.addCleanup(host.terminate)
+        self.assertTrue(wait_until(lambda: "running: " in self.ctl("status")))
+        for cell, value in settings:
+            self.ctl("set", cell, value)
+
+    def ctl(self, *words):
+        return subprocess.run([BIN / "rungctl", *map(str, words)], capture_output=True, text=True, env=self.environment, timeout=patience()).stdout
+
+    def running(self):
+        return {timer["name"]: timer for timer in json.loads(self.ctl("top", "--once", "--json"))["timers"]}
+
+    def wait(self, condition):
+        self.assertTrue(wait_until(condition), self.ctl("top", "--once"))
+
+    def run_of(self, name, start, stop, preset_us, unit="us"):
+        """One that begins with `start`, has the preset, grows, and ends with `stop`."""
+        self.assertNotIn(name, self.running())
+        self.ctl("set", *start)
+        self.wait(lambda: name in self.running())
+        first = self.running()[name]
+        self.wait(lambda: self.running()[name]["elapsed"] > first["elapsed"])
+        last = self.running()[name]
+        self.assertEqual((last["preset"], last["unit"]), (preset_us, unit))
+        self.assertEqual(last["elapsed"] + last["remaining"], preset_us)
+        self.assertGreater(last["line"], 1)
+        text = self.ctl("top", "--once")
+        unit = "runs" if unit == "runs" else "s"
+        self.assertRegex(text, rf"\n{re.escape(name)} +[\d.]+ {unit} of +[\d.]+ {unit} +[\d.]+ {unit} left  plc\.\w+:{last['line']}")
+        self.ctl("set", *stop)
+        self.wait(lambda: name not in self.running())
+
+    def test_gsk(self):
+        self.timers("plc.pmc", "dialect gsk\nFUNC END1\nLD X0.0\nFUNC TMR\nPRM 10\nOUT R0.0\nLD X0.1\nFUNC TMRB\nPRM 12\nPRM 900000\nOUT R0.1\n"
+                    "LD X0.2\nFUNC TMRC\nPRM 2\nPRM D100\nPRM R20\nOUT R0.2\nLD X0.3\nFUNC TMRB\nPRM 13\nPRM 80\nOUT R0.3\nFUNC END2\n",
+                    ("T18:2", 1000), ("D100:2", 600))
+        self.run_of("TMR 10", ("X0.0", 1), ("X0.0", 0), 8_000_000)
+        self.run_of("TMRB 12", ("X0.1", 1), ("X0.1", 0), 900_000_000)
+        self.run_of("TMRC 2 D100 R20", ("X0.2", 1), ("X0.2", 0), 600_000_000)
+        self.assertIn("no timer runs", self.ctl("top", "--once"))
+        self.ctl("set", "X0.3", 1)
+        self.wait(lambda: json.loads(self.ctl("get", "R0.3", "--json"))["values"]["R0.3"])
+        self.assertEqual(self.running(), {}, "its time is over")
+
+    def test_fanuc(self):
+        self.timers("plc.mne", "%@A\n%@0\n4 PMC-SB7\n%\n%@3\nSUB 1\nRD X0.0\nSUB 3\n10\nWRT R0.0\nRD X0.1\nSUB 24\n12\n240000\nWRT R0.1\n"
+                    "RD X0.2\nSUB 77\n14\n160000\nWRT R0.2\nSUB 2\nSUB 64\n%\n%@E\n",
+                    ("T18:2", 1000))
+        self.run_of("TMR 10", ("X0.0", 1), ("X0.0", 0), 8_000_000)
+        self.run_of("TMRB 12", ("X0.1", 1), ("X0.1", 0), 240_000_000)
+        self.ctl("set", "X0.2", 1)
+        self.run_of("TMRBF 14", ("X0.2", 0), ("X0.2", 1), 160_000_000)
+
+    def test_nct(self):
+        self.timers("plc.lad", "dialect nct\nmodule MAIN\nrung\n|--[7000.00]--{TOND 7100 #900 #1}--(7000.10)\n"
+                    "rung\n|--[7000.01]--{TOFFD 7101 7110 #0}--(7000.11)\nrung\n|--[7000.02]--{TPULSE 7102 #30 7111}--(7000.12)\n",
+                    ("7110", 60_000), ("7111", 2))
+        self.run_of("TOND 7100", ("7000.00", 1), ("7000.00", 0), 900_000_000)
+        self.ctl("set", "7000.01", 1)
+        self.run_of("TOFFD 7101", ("7000.01", 0), ("7000.01", 1), 60_000_000)
+        self.run_of("TPULSE 7102", ("7000.02", 1), ("7000.02", 0), 1_800_000_000)
+
+    def test_technol(self):
+        source = "DATA\n        DFM GO,LAMP,STEP\nCOUNT:  DS 2\nDATA_END\n" + "".join(
+            f"MODULE_{name}\n{text}MODULE_{name}_END\n" for name, text in (
+                ("INPUT", ""), ("BLOCK_INIT", ""), ("BLOCK_DONE", ""),
+                ("MAIN", "        LDR GO\n        LOD 3000\n        TM COUNT\n        WR LAMP\n"
+                         "        MECH_BEGIN WAITS\n        LDR STEP\n        EX0\n        TIM -,5000\n        FL 0,STEP\n        MECH_END WAITS\n"),
+                ("INIT", ""), ("DONE", ""), ("CLEAR", ""), ("HALT", ""))) + "STOP\n"
+        self.timers("plc.plc", source)
+        self.run_of("TM COUNT", ("GO", 1), ("GO", 0), 3000, "runs")
+        self.ctl("set", "STEP", 1)
+        self.ctl("set", "WAITS", 1)
+        self.wait(lambda: "TIM -,5000" in self.running())
+        self.assertEqual(self.running()["TIM -,5000"]["preset"], 5000)
 
 
 class Top(Retaining):

@@ -3,6 +3,8 @@
 // registers of the level (P22).
 #pragma once
 #include <functional>
+#include <optional>
+#include <vector>
 
 #include "frontend/network/lower/lower_function.h"
 
@@ -10,10 +12,18 @@ namespace rung::frontend::network {
 
 // Timers, counters, edges.
 
-// On-delay: W is 1 when ACT has been 1 for the preset (microseconds, i64), which is read only while ACT is 1 (P23).
-void onDelay(Lowering& f, const std::function<ir::ValueId()>& preset);
+// The time that a timer runs.
+struct Preset {
+  std::optional<Address> word; // 2 bytes, in units; nothing: `us`
+  std::optional<Address> code; // 2 bytes, which select the unit; a code that no unit has counts as 0. Nothing: as 0
+  std::vector<int64_t> units = {1}; // microseconds
+  int64_t us = 0;
+};
+
+// On-delay: W is 1 when ACT has been 1 for the preset, which is read only while ACT is 1 (P23).
+void onDelay(Lowering& f, const Preset& preset);
 // Off-delay: W is 1 while ACT is 1, and then for the preset.
-void offDelay(Lowering& f, const std::function<ir::ValueId()>& preset);
+void offDelay(Lowering& f, const Preset& preset);
 
 // A ring counter with the conditions CN0, UPDOWN, RST, ACT.
 struct RingCounter {

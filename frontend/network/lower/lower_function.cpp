@@ -54,6 +54,20 @@ ir::SlotId Lowering::slot(std::string_view role, ir::Type type, int64_t init) {
   return module_.slot(fmt::format("{}{}", slotPrefix_, role), type, init, false);
 }
 
+ir::TimerCell Lowering::wordCell(const Address& address) const {
+  const ir::Place place = routine_.level->placeOf(address);
+  return {.type = ir::Type::I16, .slot = {}, .space = place.space, .byte = place.byte};
+}
+
+void Lowering::addTimer(ir::Timer timer) {
+  std::vector<ir::Timer>& timers = module_.module().timers;
+  const auto isSame = [&](const ir::Timer& other) { return other.time.slot == timer.time.slot; };
+  if (std::ranges::any_of(timers, isSame)) return;
+  const std::string_view instruction = slotPrefix_.substr(slotPrefix_.find('/') + 1);
+  timer.name = frontend::Numbering::withoutNumber(std::string(instruction.substr(0, instruction.size() - 1)));
+  timers.push_back(std::move(timer));
+}
+
 ir::ValueId Lowering::scanTime() { return b.slotLoad(routine_.level->scanTime); }
 
 bool Lowering::onceEachRun() const { return routine_.level->straight && routine_.unit == routine_.level->level; }

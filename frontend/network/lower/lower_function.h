@@ -57,6 +57,10 @@ public:
 
   // State of this instruction; all calls with the same role return the same slot, also on the other level.
   ir::SlotId slot(std::string_view role, ir::Type type, int64_t init = 0);
+  // A word as the cell of a timer.
+  ir::TimerCell wordCell(const Address& address) const;
+  // This instruction as a timer, for displays. An instruction that several levels run is one timer.
+  void addTimer(ir::Timer timer);
   // Microseconds between the beginnings of this and the last run of the level.
   ir::ValueId scanTime();
   // Whether every run of the level executes this network exactly once.

@@ -1,4 +1,7 @@
 // Timers, counters and edges (§7.2, §7.4, §7.13).
+#include <string>
+#include <utility>
+
 #include "frontend/lower/operations.h"
 #include "frontend/network/lower/functions.h"
 
@@ -23,11 +26,42 @@ ValueId gainOf(Lowering& f) {
   return b.select(b.leS(since, f.sinceLastRun()), since, f.scanTime());
 }
 
-// Whether `condition` has been 1 for the preset. `elapsed` is the time that it has been.
-ValueId lasts(Lowering& f, ValueId condition, ir::SlotId elapsed, const std::function<ValueId()>& preset) {
+ValueId unitOf(Lowering& f, const Preset& preset) {
   ir::RungBuilder& b = f.b;
+  if (!preset.code) return b.constant(Type::I64, preset.units.front());
+  std::string bytes;
+  for (const int64_t unit : preset.units)
+    for (uint32_t i = 0; i < 8; ++i) bytes += static_cast<char>(unit >> (8 * i));
+  const ValueId code = b.zextOrTrunc(Type::I32, f.load(Type::I16, *preset.code));
+  const ValueId known = b.select(b.ltU(code, b.i32(static_cast<int64_t>(preset.units.size()))), code, b.i32(0));
+  return b.loadAt(Type::I64, f.constants(bytes, static_cast<uint32_t>(bytes.size() - 7)), b.mul(known, b.i32(8)));
+}
+
+// In microseconds.
+ValueId valueOf(Lowering& f, const Preset& preset) {
+  if (!preset.word) return f.b.constant(Type::I64, preset.us);
+  const ValueId unit = unitOf(f, preset);
+  return f.b.mul(f.b.zextOrTrunc(Type::I64, f.load(Type::I16, *preset.word)), unit);
+}
+
+// For displays.
+void describe(Lowering& f, ir::SlotId elapsed, const Preset& preset) {
+  ir::Timer timer{.time = {.type = Type::I64, .slot = elapsed}};
+  if (preset.word)
+    timer.preset = f.wordCell(*preset.word);
+  else
+    timer.constant = preset.us;
+  if (preset.code) timer.unit = f.wordCell(*preset.code);
+  timer.unitsUs.assign(preset.units.begin(), preset.units.end());
+  f.addTimer(std::move(timer));
+}
+
+// Whether `condition` has been 1 for the preset. `elapsed` is the time that it has been.
+ValueId lasts(Lowering& f, ValueId condition, ir::SlotId elapsed, const Preset& preset) {
+  ir::RungBuilder& b = f.b;
+  describe(f, elapsed, preset);
   const auto grow = [&] {
-    const ValueId limit = preset();
+    const ValueId limit = valueOf(f, preset);
     const ValueId gain = gainOf(f);
     const ValueId grown = b.add(b.slotLoad(elapsed), gain);
     b.slotStore(elapsed, grown);
@@ -46,12 +80,12 @@ ValueId lasts(Lowering& f, ValueId condition, ir::SlotId elapsed, const std::fun
 
 } // namespace
 
-void onDelay(Lowering& f, const std::function<ValueId()>& preset) {
+void onDelay(Lowering& f, const Preset& preset) {
   f.setOutput(lasts(f, f.act(), f.slot("elapsed", Type::I64, kNotRunning), preset));
 }
 
 // W is 0 when ACT has been 0 for the preset, and after power-on.
-void offDelay(Lowering& f, const std::function<ValueId()>& preset) {
+void offDelay(Lowering& f, const Preset& preset) {
   f.setOutput(f.b.not_(lasts(f, f.b.not_(f.act()), f.slot("elapsed", Type::I64, kLongAgo), preset)));
 }
 

@@ -122,6 +122,35 @@ typedef struct rung_continuation {
   const char* const* points;
 } rung_continuation;
 
+enum rung_timer_flags {
+  RUNG_TIMER_DOWN = 1, /* its time falls to 0; otherwise it grows from 0 to the preset */
+  RUNG_TIMER_RUNS = 2, /* it counts runs of its instruction, not microseconds */
+};
+
+/* A timer of the program, for displays. Its cells are described by a type (an enum rung_type of integers; 0: there is
+ * no cell), a space and the logical byte in it. If the space is RUNG_NONE, the cell is in a slot, at this offset of the
+ * memory block. */
+typedef struct rung_timer {
+  const char* name; /* the instruction as its dialect writes it: "TMRB 12" */
+  int64_t preset;   /* without a cell; negative: not known */
+  const uint32_t*
+      units;           /* microseconds of a unit of the preset, by the number in the unit's cell; a larger one counts */
+  uint32_t unit_count; /* as 0, as without a cell. At least 1 */
+  uint32_t flags;      /* enum rung_timer_flags */
+  uint32_t rung;       /* the first rung that uses its time, or RUNG_NONE */
+  uint32_t time_us;    /* microseconds of a unit of its time */
+  uint32_t time_type;
+  uint32_t time_space;
+  uint32_t time_at;
+  uint32_t running_at;  /* offset of a slot that is 1 while it runs; RUNG_NONE: it runs while its time is neither 0, */
+  uint32_t preset_type; /* negative, nor at its end */
+  uint32_t preset_space;
+  uint32_t preset_at;
+  uint32_t unit_type;
+  uint32_t unit_space;
+  uint32_t unit_at;
+} rung_timer;
+
 /* Bytes of the memory block. A retained span consists of whole logical bytes of spaces. */
 typedef struct rung_span {
   uint32_t offset;
@@ -337,6 +366,7 @@ typedef struct rung_program {
   uint32_t text_count;
   uint32_t slot_count;
   uint32_t continuation_count;
+  uint32_t timer_count;
   uint32_t write_count;
   uint32_t read_count;
   uint32_t change_count;
@@ -345,6 +375,7 @@ typedef struct rung_program {
   const rung_symbol* symbols;
   const rung_slot* slots;
   const rung_continuation* continuations;
+  const rung_timer* timers; /* in program order */
   const rung_init* inits;
   const rung_span* retains;    /* retained through power-off */
   const rung_span* safe_spans; /* cleared when a fault stops the program */

@@ -676,6 +676,27 @@ RUNG_API int32_t rung_instance_worst_rung(const rung_instance* instance, rung_pr
 /* Resets counts and times of all rungs. RUNG_WRONG_STATE as above. [rt] */
 RUNG_API int32_t rung_instance_clear_profile(rung_instance* instance);
 
+/* ---- timers ----------------------------------------------------------------------------------------------------- */
+
+typedef struct rung_timer_info {
+  uint32_t size;
+  uint32_t rung;    /* as drawn, from 1; 0: none */
+  uint32_t line;    /* the rung's first line */
+  uint32_t running; /* 1: its time has begun, and is not over */
+  uint32_t runs;    /* 1: it counts runs of its instruction; 0: microseconds */
+  uint32_t reserved;
+  const char* name; /* the instruction as its dialect writes it; valid as long as the image, like the next two */
+  const char* file;
+  const char* title;
+  int64_t elapsed;   /* 0 if it does not run; negative: not known, as the next two */
+  int64_t remaining; /* 0 if it does not run */
+  int64_t preset;
+} rung_timer_info;
+
+/* The timer with this index in the program's tables, between two scans. Not among them are timers whose place the
+ * program computes. RUNG_EMPTY: there are not that many. [rt] */
+RUNG_API int32_t rung_instance_timer(const rung_instance* instance, uint32_t index, rung_timer_info* timer);
+
 /* ---- watching --------------------------------------------------------------------------------------------------- */
 
 /* Cells that other threads watch while the program runs: their values at the end of a scan, all of the same scan. The

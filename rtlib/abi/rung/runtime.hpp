@@ -323,6 +323,12 @@ public:
   }
   void setClock(int64_t nowUs) { check(rung_instance_set_clock(handle(), nowUs)); }
 
+  // The timer with this index in the program's tables; nothing: there are not that many.
+  std::optional<rung_timer_info> timer(uint32_t index) const {
+    auto out = sized<rung_timer_info>();
+    return check(rung_instance_timer(handle(), index, &out)) == RUNG_OK ? std::optional(out) : std::nullopt;
+  }
+
   // The profile of the rung with this index in the program's tables; nothing: there are not that many.
   std::optional<rung_profile> profile(uint32_t index) const {
     auto out = sized<rung_profile>();

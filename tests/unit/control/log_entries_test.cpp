@@ -11,8 +11,10 @@
 namespace rung::control {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 constexpr int64_t kBegin = 1'700'000'000;
 const LogEntries::Key kDoor{3, 0, 0};
@@ -65,16 +67,42 @@ TEST(LogEntries, AMessageThatFlickersIsCounted) {
   EXPECT_EQ(shown(log).back(), "DOOR 4-99 x96");
 }
 
-TEST(LogEntries, WhatIsOnOutlivesItsEntry) {
+TEST(LogEntries, AMessageThatIsOnKeepsItsEntry) {
   LogEntries log;
   log.come(kDoor, "DOOR", kBegin, false);
-  for (size_t i = 0; i < LogEntries::kMost; ++i) log.happen({.text = "event"}, kBegin + 1);
-  EXPECT_EQ(log.entries().size(), LogEntries::kMost);
-  EXPECT_EQ(log.entries().front().text, "event");
+  for (size_t i = 0; i < 2 * LogEntries::kMost; ++i) log.happen({.text = "event"}, kBegin + 1);
+  EXPECT_EQ(log.entries().size(), LogEntries::kMost + 1);
+  EXPECT_EQ(log.entries().front().text, "DOOR");
   ASSERT_EQ(log.shown().size(), 1u);
   EXPECT_EQ(log.shown()[0].cameS, kBegin);
-  EXPECT_EQ(log.go(kDoor, kBegin + 2), "DOOR");
+  EXPECT_THAT(log.acknowledge(kBegin + 2), ElementsAre("DOOR"));
+  EXPECT_EQ(log.entries().front().seenS, kBegin + 2);
+  EXPECT_EQ(log.go(kDoor, kBegin + 3), "DOOR");
+  EXPECT_EQ(log.entries().front().version, log.version()) << "clients that follow get the end, too";
   EXPECT_TRUE(log.shown().empty());
+  log.takeAll();
+  log.happen({.text = "event"}, kBegin + 4);
+  log.happen({.text = "event"}, kBegin + 4);
+  EXPECT_EQ(log.entries().size(), LogEntries::kMost);
+  EXPECT_EQ(log.entries().front().text, "event");
+}
+
+// Without a disk nothing is written: all that happens must not add up.
+TEST(LogEntries, WhatIsInMemoryIsBounded) {
+  LogEntries log;
+  constexpr int kMessages = LogEntries::kMostShown + 100;
+  for (int round = 0; round < 5; ++round) {
+    for (int i = 0; i < kMessages; ++i) log.come({7, 0, i}, "many", kBegin, false);
+    EXPECT_EQ(log.shown().size(), LogEntries::kMostShown);
+    for (size_t i = 0; i < LogEntries::kMost; ++i) log.happen({.text = "event"}, kBegin);
+    EXPECT_EQ(log.entries().size(), LogEntries::kMost + LogEntries::kMostShown);
+    log.goAll(kBegin + 1);
+  }
+  for (size_t i = 0; i < LogEntries::kMostShown + 1; ++i) log.happen({.text = "event"}, kBegin);
+  EXPECT_LE(log.entries().size(), LogEntries::kMost + LogEntries::kMostShown);
+  const LogEntries::Lines lines = log.takeAll();
+  EXPECT_EQ(static_cast<size_t>(std::ranges::count(lines.changed, '\n')), log.entries().size());
+  EXPECT_EQ(lines.others, "");
 }
 
 TEST(LogEntries, AMessageThatSomebodyHasSeen) {
@@ -99,6 +127,9 @@ TEST(LogEntries, ALongTextIsCutBetweenCharacters) {
   EXPECT_TRUE(log.entries()[0].text.ends_with("\xc5\x99\xe2\x80\xa6"));
   log.happen({.text = std::string(LogEntries::kMostText, 'x')}, kBegin);
   EXPECT_EQ(log.entries()[1].text.size(), LogEntries::kMostText);
+  log.come(kDoor, text, kBegin, false);
+  log.come(kDoor, text, kBegin + 1, false);
+  EXPECT_EQ(log.entries().size(), 3u) << "it is on already";
 }
 
 TEST(LogEntries, ChangesHaveVersions) {
@@ -122,7 +153,7 @@ TEST(LogEntries, EveryMemberIsInTheLine) {
   before.come(kDoor, "DOOR", kBegin, false);
   before.acknowledge(kBegin + 2);
   LogEntries after;
-  EXPECT_EQ(after.read(before.takeAll()), 0u);
+  EXPECT_EQ(after.read(before.takeAll().changed), 0u);
   ASSERT_EQ(after.entries().size(), 3u);
   const LogEntry& set = after.entries()[0];
   EXPECT_EQ(set.kind, LogKind::Set);
@@ -147,14 +178,29 @@ TEST(LogEntries, LinesWithoutAKind) {
   EXPECT_EQ(log.entries()[1].kind, LogKind::Report);
 }
 
-TEST(LogEntries, TheEndOfAMessageWhoseEntryWasDropped) {
+// In one turn, before anything is written.
+TEST(LogEntries, TheEndOfAnOldMessageIsWritten) {
   LogEntries log;
   log.come(kDoor, "DOOR", kBegin, false);
   log.takeAll();
   for (size_t i = 0; i < LogEntries::kMost; ++i) log.happen({.text = "event"}, kBegin + 1);
   log.takeAll();
   log.go(kDoor, kBegin + 2);
-  EXPECT_THAT(log.takeLines(kBegin + 2), HasSubstr("\"went\":1700000002"));
+  for (int i = 0; i < 10; ++i) log.happen({.text = "event"}, kBegin + 2);
+  EXPECT_THAT(log.takeLines(kBegin + 2).changed, HasSubstr("\"went\":1700000002"));
+  EXPECT_EQ(log.takeLost(), 0u);
+}
+
+TEST(LogEntries, LinesOfWhatIsOnAreTakenOnce) {
+  LogEntries log;
+  log.come(kDoor, "DOOR", kBegin, false);
+  LogEntries::Lines lines = log.takeLines(kBegin);
+  EXPECT_THAT(lines.changed, HasSubstr("DOOR"));
+  EXPECT_EQ(lines.others, "");
+  log.come(kOil, "OIL", kBegin + 1, false);
+  lines = log.takeLines(kBegin + 1);
+  EXPECT_THAT(lines.changed, AllOf(HasSubstr("OIL"), Not(HasSubstr("DOOR"))));
+  EXPECT_THAT(lines.others, AllOf(HasSubstr("DOOR"), Not(HasSubstr("OIL"))));
 }
 
 TEST(LogEntries, WhatIsDroppedBeforeItIsWrittenIsCounted) {
@@ -167,12 +213,12 @@ TEST(LogEntries, WhatIsDroppedBeforeItIsWrittenIsCounted) {
 TEST(LogEntries, LinesGiveBackWhatWasWritten) {
   LogEntries before;
   before.come(kDoor, "DOOR \"A\"\n\xff", kBegin, false);
-  std::string text = before.takeLines(kBegin);
-  EXPECT_EQ(before.takeLines(kBegin), "") << "nothing has changed";
+  std::string text = before.takeLines(kBegin).changed;
+  EXPECT_EQ(before.takeLines(kBegin).changed, "") << "nothing has changed";
   before.go(kDoor, kBegin + 4);
   before.happen({.text = "fault"}, kBegin + 5);
   before.come(kOil, "OIL", kBegin + 6, false);
-  text += before.takeLines(kBegin + 6);
+  text += before.takeLines(kBegin + 6).changed;
   LogEntries after;
   EXPECT_EQ(after.read(text), 0u);
   EXPECT_THAT(shown(after), ElementsAre(HasSubstr("DOOR \"A\"\n"), "fault 5", "OIL 6!"));
@@ -189,7 +235,7 @@ TEST(LogEntries, ARegularEndSaysUntilWhenTheyWereOn) {
   before.come(kDoor, "DOOR", kBegin, false);
   before.end(kBegin + 8);
   LogEntries after;
-  EXPECT_EQ(after.read(before.takeAll()), 0u);
+  EXPECT_EQ(after.read(before.takeAll().changed), 0u);
   EXPECT_THAT(shown(after), ElementsAre("DOOR 0-8!"));
 }
 
@@ -197,13 +243,16 @@ TEST(LogEntries, DamagedLinesAreLeftOut) {
   LogEntries before;
   before.happen({.text = "one"}, kBegin);
   before.happen({.text = "two"}, kBegin + 1);
-  const std::string good = before.takeAll();
+  const std::string good = before.takeAll().changed;
   const std::string torn = good.substr(0, good.size() - 5);
   LogEntries after;
   EXPECT_EQ(after.read(torn), 1u);
   EXPECT_THAT(shown(after), ElementsAre("one 0"));
   LogEntries other;
-  EXPECT_EQ(other.read("\xff\n[]\n5\n{\"n\":-1}\n{\"n\":1,\"came\":\"x\",\"text\":5}\n{\"n\":1}\n" + good), 6u);
+  EXPECT_EQ(other.read("\xff\n[]\n5\n{\"n\":-1}\n{\"n\":1,\"came\":\"x\",\"text\":5}\n{\"n\":1}\n"
+                       "{\"n\":0,\"came\":1,\"text\":\"\"}\n{\"n\":18446744073709551615,\"came\":1,\"text\":\"\"}\n" +
+                       good),
+            8u);
   EXPECT_THAT(shown(other), ElementsAre("one 0", "two 1"));
 }
 
@@ -216,22 +265,22 @@ TEST(LogEntries, WhatChangesAllTheTimeIsWrittenNowAndThen) {
     const int64_t now = kBegin + i / 100;
     log.come(kDoor, "DOOR", now, i >= 5);
     log.go(kDoor, now);
-    const std::string text = log.takeLines(now);
+    const std::string text = log.takeLines(now).changed;
     lines += static_cast<size_t>(std::ranges::count(text, '\n'));
   }
   EXPECT_LT(lines, 40u);
-  const std::string text = log.takeLines(kBegin + kSeconds + LogEntries::kPauseS);
+  const std::string text = log.takeLines(kBegin + kSeconds + LogEntries::kPauseS).changed;
   EXPECT_THAT(text, HasSubstr("\"times\":9996")) << "what it was at last is written, too";
-  EXPECT_EQ(log.takeLines(kBegin + 1000), "");
+  EXPECT_EQ(log.takeLines(kBegin + 1000).changed, "");
 }
 
 TEST(LogEntries, AFloodOfTextsIsLimited) {
   LogEntries log;
   for (int i = 0; i < 500; ++i) log.happen({.text = "event " + std::to_string(i)}, kBegin);
-  const std::string first = log.takeLines(kBegin);
+  const std::string first = log.takeLines(kBegin).changed;
   EXPECT_EQ(static_cast<uint32_t>(std::ranges::count(first, '\n')), LogEntries::kMostLines);
-  EXPECT_EQ(log.takeLines(kBegin), "");
-  EXPECT_EQ(static_cast<uint32_t>(std::ranges::count(log.takeLines(kBegin + 1), '\n')), LogEntries::kMostLines)
+  EXPECT_EQ(log.takeLines(kBegin).changed, "");
+  EXPECT_EQ(static_cast<uint32_t>(std::ranges::count(log.takeLines(kBegin + 1).changed, '\n')), LogEntries::kMostLines)
       << "the next second";
 }
 
@@ -246,9 +295,9 @@ TEST(LogEntries, AClockThatIsSetBackHoldsUpNoLine) {
     log.takeLines(kBegin);
   }
   log.come(kDoor, "DOOR", kBegin - kHour, true);
-  EXPECT_THAT(log.takeLines(kBegin - kHour), HasSubstr("\"times\":4"));
+  EXPECT_THAT(log.takeLines(kBegin - kHour).changed, HasSubstr("\"times\":4"));
   log.come(kOil, "OIL", kBegin - kHour + 1, false);
-  EXPECT_THAT(log.takeLines(kBegin - kHour + 1), HasSubstr("OIL"));
+  EXPECT_THAT(log.takeLines(kBegin - kHour + 1).changed, HasSubstr("OIL"));
   EXPECT_THAT(shown(log), ElementsAre("DOOR 0-on x4", "OIL -3599-on")) << "in the order in which they came";
 }
 

@@ -17,7 +17,7 @@ using ::testing::IsEmpty;
 struct Clock final : runtime::Clock {
   int64_t seconds = 1'000'000'000;
   int64_t nowNs() noexcept override { return seconds * 1'000'000'000; }
-  int64_t dateS() noexcept override { return seconds; }
+  int64_t dateNs() noexcept override { return seconds * 1'000'000'000; }
   void sleep(int64_t ns) override { seconds += ns / 1'000'000'000; }
 };
 

@@ -78,6 +78,17 @@ bool equal(const Continuation& a, const Continuation& b) {
   return key == b.key && slot == b.slot && space == b.space && byte == b.byte && points == b.points;
 }
 
+bool equal(const TimerCell& a, const TimerCell& b) {
+  const auto& [type, slot, space, byte] = a;
+  return type == b.type && slot == b.slot && space == b.space && byte == b.byte;
+}
+
+bool equal(const Timer& a, const Timer& b) {
+  const auto& [name, flags, time, timeUs, running, preset, constant, unit, unitsUs] = a;
+  return name == b.name && flags == b.flags && equal(time, b.time) && timeUs == b.timeUs && running == b.running &&
+         equal(preset, b.preset) && constant == b.constant && equal(unit, b.unit) && unitsUs == b.unitsUs;
+}
+
 bool equal(const Init& a, const Init& b) {
   const auto& [space, byte, data] = a;
   return space == b.space && byte == b.byte && data == b.data;
@@ -101,15 +112,15 @@ bool equal(const MessageText& a, const MessageText& b) {
 }
 
 bool equal(const Module& a, const Module& b) {
-  const auto& [name, dialect, files, spaces, slots, continuations, symbols, inits, retains, safeSpans, faults, services,
-               messages, routines, tasks, mainTask, fastTask, scan, fast, slices, instrumented] = a;
+  const auto& [name, dialect, files, spaces, slots, continuations, timers, symbols, inits, retains, safeSpans, faults,
+               services, messages, routines, tasks, mainTask, fastTask, scan, fast, slices, instrumented] = a;
   return name == b.name && dialect == b.dialect && files == b.files && equalAll(spaces, b.spaces) &&
-         equalAll(slots, b.slots) && equalAll(continuations, b.continuations) && equalAll(symbols, b.symbols) &&
-         equalAll(inits, b.inits) && equalAll(retains, b.retains) && equalAll(safeSpans, b.safeSpans) &&
-         faults == b.faults && services == b.services && equalAll(messages, b.messages) &&
-         equalAll(routines, b.routines) && equalAll(tasks, b.tasks) && mainTask == b.mainTask &&
-         fastTask == b.fastTask && equalAll(scan, b.scan) && equalAll(fast, b.fast) && equalAll(slices, b.slices) &&
-         instrumented == b.instrumented;
+         equalAll(slots, b.slots) && equalAll(continuations, b.continuations) && equalAll(timers, b.timers) &&
+         equalAll(symbols, b.symbols) && equalAll(inits, b.inits) && equalAll(retains, b.retains) &&
+         equalAll(safeSpans, b.safeSpans) && faults == b.faults && services == b.services &&
+         equalAll(messages, b.messages) && equalAll(routines, b.routines) && equalAll(tasks, b.tasks) &&
+         mainTask == b.mainTask && fastTask == b.fastTask && equalAll(scan, b.scan) && equalAll(fast, b.fast) &&
+         equalAll(slices, b.slices) && instrumented == b.instrumented;
 }
 
 } // namespace rung::ir

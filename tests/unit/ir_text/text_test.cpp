@@ -84,6 +84,7 @@ TEST(Hash, ChangesWithEveryField) {
   expectOther(module.slots, [](std::vector<Slot>& slots) { slots.push_back({}); });
   expectOther(module.symbols, [](std::vector<Symbol>& symbols) { symbols.push_back({}); });
   expectOther(module.continuations, [](std::vector<Continuation>& all) { all.push_back({}); });
+  expectOther(module.timers, [](std::vector<Timer>& all) { all.push_back({}); });
   expectOther(module.messages, [](std::vector<MessageText>& messages) { messages.push_back({}); });
   expectOther(module.inits, [](std::vector<Init>& inits) { inits.push_back({}); });
   EXPECT_EQ(hashOf(module), hash);
@@ -156,6 +157,17 @@ TEST(TextRoundTrip, FieldsAtTheirLimits) {
                   {.type = Type::I8, .init = 0x80, .key = "c"}};
   module.continuations = {{.key = "", .slot = SlotId{7}, .points = {}},
                           {.key = "\"", .space = SpaceId{0}, .byte = UINT32_MAX, .points = {"", "a b", "\n"}}};
+  module.timers = {{.name = "\"",
+                    .flags = RUNG_TIMER_DOWN | RUNG_TIMER_RUNS,
+                    .time = {.type = Type::I64, .slot = SlotId{9}, .space = {}},
+                    .timeUs = UINT32_MAX,
+                    .running = SlotId{8},
+                    .constant = INT64_MIN},
+                   {.name = "",
+                    .time = {.type = Type::I8, .slot = {}, .space = SpaceId{0}, .byte = 5},
+                    .preset = {.type = Type::I32, .slot = {}, .space = SpaceId{0}, .byte = UINT32_MAX},
+                    .unit = {.type = Type::I16, .slot = SlotId{1}, .space = {}},
+                    .unitsUs = {0, UINT32_MAX, 7}}};
   module.symbols = {{.name = "S",
                      .space = SpaceId{},
                      .byte = 3,

@@ -143,6 +143,26 @@ TEST(VerifyModule, Slots) {
   expectBroken(continuation({.key = "C", .space = SpaceId{0}, .points = {"0", "1", "0"}}), Rule::Slots, "two points");
 }
 
+TEST(VerifyModule, Timers) {
+  const auto timer = [](const std::function<void(Timer&)>& change) {
+    return [change](Module& m) {
+      m.timers = {{.name = "T", .time = {.type = Type::I32, .slot = {}, .space = SpaceId{0}}, .unitsUs = {1}}};
+      change(m.timers[0]);
+    };
+  };
+  expectBroken(timer([](Timer& t) { t.time = {}; }), Rule::Slots, "no cell for its time");
+  expectBroken(timer([](Timer& t) { t.time.type = Type::Bit; }), Rule::Slots, "no cell for its time");
+  expectBroken(timer([](Timer& t) { t.time.byte = kSpaceBytes - 3; }), Rule::Slots, "no cell for its time");
+  expectBroken(timer([](Timer& t) { t.time.slot = SlotId{99}; }), Rule::Slots, "no cell for its time");
+  expectBroken(timer([](Timer& t) { t.preset = {.type = Type::I16, .slot = SlotId{99}, .space = {}}; }), Rule::Slots,
+               "no cell for its preset");
+  expectBroken(timer([](Timer& t) { t.unit = {.type = Type::I16, .slot = {}, .space = SpaceId{99}}; }), Rule::Slots,
+               "no cell for its unit");
+  expectBroken(timer([](Timer& t) { t.unitsUs.clear(); }), Rule::Slots, "has no unit");
+  expectBroken(timer([](Timer& t) { t.flags = 4; }), Rule::Slots, "unknown flags");
+  expectBroken(timer([](Timer& t) { t.running = SlotId{99}; }), Rule::Slots, "whether it runs");
+}
+
 TEST(VerifyModule, Symbols) {
   expectBroken([](Module& m) { m.symbols[0].byte = kSpaceBytes; }, Rule::Symbols, "outside its space");
   expectBroken([](Module& m) { m.symbols[0].space = SpaceId{2}; }, Rule::Symbols, "outside its space");

@@ -29,6 +29,7 @@ TestProgram soundProgram() {
   test.addSlot("since", 40, RUNG_TYPE_I64);
   test.addContinuation("MECH", 48, {"beginning", "open"});
   test.addContinuation("TURN", 52, {"beginning"});
+  test.addTimer("TMRB 1", 40, 1000);
   static const uint8_t kData[] = {1, 0, 1, 1, 0, 1, 1, 1, 2};
   test.inits = {{0, 1, kData}, {64, 8, kData}};
   test.retains = {{0, 4}, {72, 16}};
@@ -167,6 +168,21 @@ constexpr Case kCases[] = {
     {"ContinuationOutside", [](TestProgram& t) { t.continuations[0].offset = 253; }, "continuation 0 lies outside"},
     {"ContinuationEmpty", [](TestProgram& t) { t.continuations[0].point_count = 0; }, "continuation 0 has no points"},
     {"ContinuationPoint", [](TestProgram& t) { t.points[0][1] = nullptr; }, "continuation 0 has a point without a key"},
+
+    {"NoTimers", [](TestProgram& t) { t.program.timers = nullptr; }, "table of timers is missing"},
+    {"TimerName", [](TestProgram& t) { t.timers[0].name = nullptr; }, "timer 0 has no name"},
+    {"TimerFlags", [](TestProgram& t) { t.timers[0].flags = 4; }, "timer 0 has unknown flags 4"},
+    {"TimerRung", [](TestProgram& t) { t.timers[0].rung = 99; }, "timer 0 has rung 99"},
+    {"TimerUnits", [](TestProgram& t) { t.timers[0].unit_count = 0; }, "timer 0 has no units"},
+    {"TimerNoUnits", [](TestProgram& t) { t.timers[0].units = nullptr; }, "timer 0 has no units"},
+    {"TimerTime", [](TestProgram& t) { t.timers[0].time_type = 0; }, "timer 0 has no time"},
+    {"TimerBit", [](TestProgram& t) { t.timers[0].time_type = RUNG_TYPE_BIT; }, "timer 0 has a cell of type 1"},
+    {"TimerOutside", [](TestProgram& t) { t.timers[0].time_at = 249; }, "timer 0 lies outside the memory block"},
+    {"TimerRunning", [](TestProgram& t) { t.timers[0].running_at = 256; }, "timer 0 lies outside the memory block"},
+    {"TimerSpace", [](TestProgram& t) { t.timers[0].preset_type = RUNG_TYPE_I16, t.timers[0].preset_space = 2; },
+     "timer 0 has space 2"},
+    {"TimerSpaceEnd", [](TestProgram& t) { t.timers[0].unit_type = RUNG_TYPE_I16, t.timers[0].unit_at = 7; },
+     "timer 0 has a cell outside space 0"},
 
     {"SymbolByte", [](TestProgram& t) { t.symbols[0].byte = 8; }, "symbol 0 lies outside space 0"},
     {"SymbolLong", [](TestProgram& t) { t.symbols[0].count = 0xFFFFFFFF; }, "symbol 0 lies outside space 0"},

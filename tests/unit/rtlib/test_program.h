@@ -27,6 +27,7 @@ struct TestProgram {
   std::vector<rung_slot> slots;
   std::deque<std::vector<const char*>> points; // one list a continuation
   std::vector<rung_continuation> continuations;
+  std::vector<rung_timer> timers;
   std::vector<rung_init> inits;
   std::vector<rung_span> retains;
   std::vector<rung_span> safeSpans;
@@ -68,6 +69,20 @@ struct TestProgram {
   void addContinuation(const char* key, uint32_t offset, std::vector<const char*> list) {
     points.push_back(std::move(list));
     continuations.push_back({key, offset, static_cast<uint32_t>(points.back().size()), points.back().data()});
+  }
+  // Its time is the slot at `offset`, its preset a constant in microseconds.
+  void addTimer(const char* name, uint32_t offset, int64_t preset) {
+    static constexpr uint32_t kMicrosecond[] = {1};
+    timers.push_back({.name = name,
+                      .preset = preset,
+                      .units = kMicrosecond,
+                      .unit_count = 1,
+                      .rung = RUNG_NONE,
+                      .time_us = 1,
+                      .time_type = RUNG_TYPE_I64,
+                      .time_space = RUNG_NONE,
+                      .time_at = offset,
+                      .running_at = RUNG_NONE});
   }
   void addConstant(const char* name, int64_t value) {
     symbols.push_back({name, "", RUNG_NONE, 0, 0, RUNG_TYPE_I64, 1, RUNG_SYMBOL_CONST, value});
@@ -133,6 +148,7 @@ struct TestProgram {
     point(symbols, program.symbols, program.symbol_count);
     point(slots, program.slots, program.slot_count);
     point(continuations, program.continuations, program.continuation_count);
+    point(timers, program.timers, program.timer_count);
     point(inits, program.inits, program.init_count);
     point(retains, program.retains, program.retain_count);
     point(safeSpans, program.safe_spans, program.safe_count);

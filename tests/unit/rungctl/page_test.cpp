@@ -24,6 +24,7 @@ size_t columnsOf(const std::string& text) {
 
 Look lookOf(size_t many) {
   Look look;
+  look.log.emplace();
   look.status = {{"host", "plc"},          {"program", "mill\x1b[2J"},
                  {"dialect", "gsk"},       {"scanned", true},
                  {"scans", 124},           {"missed", 0},
@@ -40,7 +41,7 @@ Look lookOf(size_t many) {
                                      {"time_ns", 2.5},
                                      {"max_ns", 9.0}});
     look.messages.push_back({{"kind", "message"}, {"came", 0}, {"text", "Zav\xc5\x99\x65te kryt"}, {"on", true}});
-    look.log.push_back({{"kind", "fault"}, {"came", int64_t{1} << 62}, {"text", ""}});
+    look.log->push_back({{"kind", "fault"}, {"came", int64_t{1} << 62}, {"text", ""}});
     look.pins.push_back({.name = "pin-" + std::to_string(i), .value = "true", .former = "false", .uses = "X0.0"});
   }
   return look;

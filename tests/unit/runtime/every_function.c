@@ -94,6 +94,8 @@ static void instances(rung_instance* plc) {
   BAD_HANDLE(rung_instance_keep_recording(plc));
   BAD_HANDLE(rung_instance_follow_recording(plc));
   BAD_HANDLE(rung_instance_recording(plc, &recorded));
+  rung_timer_info timer = {.size = sizeof timer};
+  BAD_HANDLE(rung_instance_timer(plc, 0, &timer));
   BAD_HANDLE(rung_instance_profile(plc, 0, &profile));
   BAD_HANDLE(rung_instance_worst_rung(plc, &profile));
   BAD_HANDLE(rung_instance_clear_profile(plc));

@@ -158,7 +158,9 @@ private:
     case 33: return rung_instance_function_done(plc, number(), number());
     case 34: return rung_instance_abort_functions(plc, number());
     case 35: return chance(2) ? rung_instance_flush(plc) : rung_instance_unsaved(plc, text, number());
-    case 36: return withStruct<rung_profile>([&](rung_profile* s) { return rung_instance_profile(plc, number(), s); });
+    case 36:
+      withStruct<rung_timer_info>([&](rung_timer_info* s) { return rung_instance_timer(plc, number(), s); });
+      return withStruct<rung_profile>([&](rung_profile* s) { return rung_instance_profile(plc, number(), s); });
     case 37: return withStruct<rung_profile>([&](rung_profile* s) { return rung_instance_worst_rung(plc, s); });
     case 38: return rung_instance_replace(plc, one(replacements_));
     case 39:

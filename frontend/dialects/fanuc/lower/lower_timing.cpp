@@ -13,53 +13,40 @@ using ir::ValueId;
 
 constexpr int64_t kUsPerMs = 1000;
 
-ValueId inUnits(Lowering& f, const network::Address& word, ValueId unitUs) {
-  return f.b.mul(f.b.zextOrTrunc(Type::I64, f.load(Type::I16, word)), unitUs);
-}
-
-// The unit of a variable timer in microseconds, by the code of its accuracy; another code counts as 0.
-ValueId unitOf(Lowering& f, uint64_t number) {
-  ir::RungBuilder& b = f.b;
+// The preset of a variable timer, whose unit depends on the code of its accuracy; another code counts as 0.
+network::Preset pagePreset(Lowering& f, uint64_t number) {
   const int64_t usual = timerUnitMs(number) * kUsPerMs;
+  network::Preset preset{.word = timerPreset(number), .code = {}, .units = {usual}};
   const network::Address accuracy{areas::kT, static_cast<uint32_t>(kAccuracies + 2 * (number - 1))};
-  if (f.room(accuracy) < 2) return b.constant(Type::I64, usual); // types without accuracies
-  const int64_t units[] = {usual, 1 * kUsPerMs, 10 * kUsPerMs, 100 * kUsPerMs, 1000 * kUsPerMs, 60'000 * kUsPerMs};
-  std::string bytes;
-  for (const int64_t unit : units)
-    for (uint32_t i = 0; i < 8; ++i) bytes += static_cast<char>(unit >> (8 * i));
-  const ValueId code = b.zextOrTrunc(Type::I32, f.load(Type::I16, accuracy));
-  const ValueId known = b.select(b.ltU(code, b.i32(std::size(units))), code, b.i32(0));
-  return b.loadAt(Type::I64, f.constants(bytes, static_cast<uint32_t>(bytes.size() - 7)), b.mul(known, b.i32(8)));
+  if (f.room(accuracy) < 2) return preset; // types without accuracies
+  preset.code = accuracy;
+  preset.units = {usual, 1 * kUsPerMs, 10 * kUsPerMs, 100 * kUsPerMs, 1000 * kUsPerMs, 60'000 * kUsPerMs};
+  return preset;
 }
 
 // The preset of TMRB and TMRBF: up to PMC-SB7 the remainder of 8 ms is dropped.
-ValueId fixedPreset(Lowering& f) {
+network::Preset fixedPreset(Lowering& f) {
   const int64_t ms = f.param(1).value;
   const bool precise = limitsOf(pmcOf(f.language())).hasMilliseconds;
-  return f.b.constant(Type::I64, (precise ? ms : ms / 8 * 8) * kUsPerMs);
+  return {.word = {}, .code = {}, .us = (precise ? ms : ms / 8 * 8) * kUsPerMs};
 }
 
-// The preset in microseconds.
-ValueId presetOf(Lowering& f) {
+network::Preset presetOf(Lowering& f) {
   constexpr int64_t kAccuracyMs[] = {8, 48, 1000, 10'000, 60'000, 1, 10, 100}; // of TMRC
   const int64_t first = f.param(0).value;
   switch (f.variant()) {
-  case kTimerPage:
-    return inUnits(f, timerPreset(static_cast<uint64_t>(first)), unitOf(f, static_cast<uint64_t>(first)));
-  case kTimerMemory: return inUnits(f, f.param(1).address, f.b.constant(Type::I64, kAccuracyMs[first] * kUsPerMs));
+  case kTimerPage: return pagePreset(f, static_cast<uint64_t>(first));
+  case kTimerMemory:
+    return {.word = network::Address(f.param(1).address), .code = {}, .units = {kAccuracyMs[first] * kUsPerMs}};
   default: return fixedPreset(f);
   }
 }
 
 } // namespace
 
-void lowerTimer(Lowering& f) {
-  network::onDelay(f, [&] { return presetOf(f); });
-}
+void lowerTimer(Lowering& f) { network::onDelay(f, presetOf(f)); }
 
-void lowerOffDelay(Lowering& f) {
-  network::offDelay(f, [&] { return fixedPreset(f); });
-}
+void lowerOffDelay(Lowering& f) { network::offDelay(f, fixedPreset(f)); }
 
 void lowerCounter(Lowering& f) {
   const auto number = static_cast<uint64_t>(f.param(0).value);

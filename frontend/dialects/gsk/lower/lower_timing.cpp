@@ -7,28 +7,24 @@ namespace rung::frontend::gsk {
 namespace {
 
 using ir::Type;
-using ir::ValueId;
 
-// The preset in microseconds.
-ValueId presetOf(Lowering& f) {
+network::Preset presetOf(Lowering& f) {
   constexpr int64_t kUsPerMs = 1000;
   constexpr int64_t kAccuracyMs[] = {8, 48, 1000}; // man. l.1199-1202
-  const auto word = [&](const network::Address& address, int64_t unitMs) {
-    return f.b.mul(f.b.zextOrTrunc(Type::I64, f.load(Type::I16, address)), f.b.constant(Type::I64, unitMs * kUsPerMs));
+  const auto word = [](const network::Address& address, int64_t unitMs) {
+    return network::Preset{.word = address, .code = {}, .units = {unitMs * kUsPerMs}};
   };
   const auto first = static_cast<uint64_t>(f.param(0).value);
   switch (f.variant()) {
   case kTimerPage: return word(timerPreset(first), timerUnitMs(first));
   case kTimerMemory: return word(f.param(1).address, kAccuracyMs[first]);
-  default: return f.b.constant(Type::I64, f.param(1).value / 8 * 8 * kUsPerMs); // man. l.1152
+  default: return {.word = {}, .code = {}, .us = f.param(1).value / 8 * 8 * kUsPerMs}; // man. l.1152
   }
 }
 
 } // namespace
 
-void lowerTimer(Lowering& f) {
-  network::onDelay(f, [&] { return presetOf(f); });
-}
+void lowerTimer(Lowering& f) { network::onDelay(f, presetOf(f)); }
 
 // P28: CTRC keeps the edge in bit 0 of register +2.
 void lowerCounter(Lowering& f) {

@@ -23,6 +23,8 @@ public:
   // `role` distinguishes the slots of one element. Elements without a slot are not numbered.
   std::string key(std::string_view role);
   ir::SlotId make(std::string_view role, ir::Type type, int64_t init = 0, bool transient = false);
+  // The element as a timer, for displays.
+  void addTimer(ir::Timer timer);
 
 private:
   ir::Module& module_;

@@ -25,6 +25,11 @@ SlotId SlotMaker::make(std::string_view role, Type type, int64_t init, bool tran
   return frontend::addSlot(module_, {.type = type, .init = init, .transient = transient, .key = key(role)});
 }
 
+void SlotMaker::addTimer(ir::Timer timer) {
+  timer.name = frontend::Numbering::withoutNumber(element_);
+  module_.timers.push_back(std::move(timer));
+}
+
 ValueId risingEdge(Lowering& box, std::string_view role, size_t pin) {
   const SlotId slot = box.slots.make(role, Type::Bit);
   const ValueId power = box.power(pin);

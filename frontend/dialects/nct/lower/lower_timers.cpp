@@ -1,5 +1,7 @@
 // TOND, TOFFD, TPULSE (man. §6.4): the register holds the remaining time in milliseconds.
 #include <array>
+#include <optional>
+#include <utility>
 
 #include "frontend/dialects/nct/lower/lower.h"
 #include "ir/support/diag/nct.h"
@@ -115,6 +117,31 @@ ValueId step(Lowering& box, const Place& timer, ValueId presetMs, const TimerSta
   return b.choose(active, [&] { return b.choose(b.slotLoad(state.active), count, trigger); }, idle);
 }
 
+// A constant or word at a fixed place; nothing if the place is computed.
+std::optional<ir::TimerCell> cellOf(Lowering& box, const Operand& operand) {
+  if (operand.form == Form::Constant) return ir::TimerCell{};
+  const std::optional<ir::Place> place = box.memory.fixedWord(operand.address);
+  if (!place) return std::nullopt;
+  return ir::TimerCell{.type = Type::I32, .slot = {}, .space = place->space, .byte = place->byte};
+}
+
+// For displays: not of a timer whose register is computed; a computed preset or unit is not known.
+void describe(Lowering& box, SlotId active) {
+  const auto time = cellOf(box, box.operands[0]);
+  if (!time) return;
+  ir::Timer timer{.flags = RUNG_TIMER_DOWN, .time = *time, .timeUs = kUsPerMs, .running = active};
+  const auto preset = cellOf(box, box.operands[1]), basis = cellOf(box, box.operands[2]);
+  if (preset && basis) {
+    timer.preset = *preset;
+    timer.unit = *basis;
+    if (preset->type == Type::None) timer.constant = box.operands[1].constant.integer;
+    timer.unitsUs.clear();
+    for (const int64_t ms : kUnitMs) timer.unitsUs.push_back(static_cast<uint32_t>(ms * kUsPerMs));
+    if (basis->type == Type::None) timer.unitsUs = {timer.unitsUs.at(box.operands[2].constant.integer)};
+  }
+  box.slots.addTimer(std::move(timer));
+}
+
 } // namespace
 
 // Time since the previous run, for a task whose runs are whole milliseconds apart.
@@ -137,6 +164,7 @@ ValueId lowerTimer(Lowering& box) {
   ValueId valid = timer.valid;
   const ValueId presetMs = preset(box, valid);
   TimerState state{.active = box.slots.make("active", Type::Bit), .evaluated = {}, .since = {}};
+  describe(box, state.active);
   if (box.variant == kOffDelay) state.evaluated = box.slots.make("evaluated", Type::Bit);
   if (valid.valid() || !box.time.passedMs.valid()) state.since = box.slots.make("since", Type::I64, -1);
   return guarded(box, valid, [&] { return step(box, timer, presetMs, state); });

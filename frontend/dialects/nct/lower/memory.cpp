@@ -68,6 +68,11 @@ Place Memory::place(const Address& address, AccessBound bound, uint32_t words) {
 
 Place Memory::word(const Address& address, AccessBound bound) { return place(address, bound, 1); }
 
+std::optional<ir::Place> Memory::fixedWord(const Address& address) const {
+  if (!address.isFixed()) return std::nullopt;
+  return ir::Place{.space = address.immediate ? spaces_.ts : spaces_.m, .byte = address.word * 4};
+}
+
 Place Memory::bit(const Address& address, AccessBound bound) {
   Place p = place(address, bound, 1);
   if (p.fixed) return p;

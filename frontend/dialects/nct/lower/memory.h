@@ -4,6 +4,8 @@
 // A fixed operand becomes a fixed place and costs only its load or store. A computed operand has a condition `valid`;
 // out of its range it reads 0 and writes nothing, so a store needs no separate condition.
 #pragma once
+#include <optional>
+
 #include "frontend/dialects/nct/config.h"
 #include "frontend/dialects/nct/read/symbols.h"
 #include "ir/core/builder.h"
@@ -61,6 +63,8 @@ public:
       : b_(builder), config_(config), spaces_(spaces), written_(written) {}
 
   Place word(const Address& address, AccessBound bound);
+  // Where a word is whose address is not computed.
+  std::optional<ir::Place> fixedWord(const Address& address) const;
   Place bit(const Address& address, AccessBound bound);
   // Two words; a computed index must be even (l.509).
   Place twoWords(const Address& address, AccessBound bound);

@@ -194,6 +194,7 @@ void lowerTimer(Lowering& l, std::span<const Operand> o, int) {
   const CountCell cell = l.countCell(o[0]);
   const ValueId rlo = l.r().rlo();
   const ValueId preset = l.r().dr(cell.type);
+  l.addTimer(cell, preset);
   const auto run = [&] {
     const ValueId count = l.state.load(cell);
     const auto further = [&] {

@@ -67,6 +67,7 @@ void lowerTimedEx(Lowering& l, std::span<const Operand> o, int level) {
   const ValueId wait = waits(l, level);
   const ValueId count = b.add(l.state.load(cell), b.constant(cell.type, 1));
   const ValueId time = timeFor(l, cell, o[1]);
+  l.addTimer(cell, time);
   const ValueId late = b.and_(wait, b.leU(time, b.zextOrTrunc(Type::I32, count)));
   const ValueId stays = b.and_(wait, b.not_(late));
   l.state.store(cell, b.select(stays, count, b.constant(cell.type, 0)));
@@ -95,6 +96,7 @@ void lowerWait(Lowering& l, std::span<const Operand> o, int) {
   if (o[0].given()) cell.access = l.memory.reach(o[0]); // the index must be computed in this rung
   const ValueId count = b.add(l.state.load(cell), b.constant(cell.type, 1));
   const ValueId time = timeFor(l, cell, o[1]);
+  l.addTimer(cell, time);
   const ValueId runs = b.ltU(b.zextOrTrunc(Type::I32, count), time);
   l.state.store(cell, b.select(runs, count, b.constant(cell.type, 0)));
   l.sequences.storeState(s, b.select(runs, b.i32(waiting), b.i32(next)));

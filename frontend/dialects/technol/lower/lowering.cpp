@@ -1,7 +1,11 @@
 // Context of the current statement.
 #include "frontend/dialects/technol/lower/lowering.h"
 
+#include <algorithm>
+#include <utility>
+
 #include "frontend/dialects/technol/lower/lower.h"
+#include "ir/core/ops.h"
 
 namespace rung::frontend::technol {
 
@@ -34,6 +38,57 @@ ValueId Lowering::contact(const Operand& operand) {
   return value;
 }
 
+// Timers.
+
+namespace {
+
+// The statement as its author wrote it.
+std::string written(const SourceProgram& program, const Statement& statement) {
+  std::string text(statement.row->info.mnemonic);
+  if (statement.tokenCount != 0) text.append(" ").append(spelled(program.operandTokens(statement)));
+  return text;
+}
+
+// Sets the preset of a timer if it is a constant or the value of a cell.
+void describePreset(const ir::Rung& rung, ValueId value, ir::Timer& timer) {
+  for (auto op = rung.ops.rbegin(); op != rung.ops.rend(); ++op) {
+    if (op->resultCount != 1 || op->result != value) continue;
+    switch (op->code) {
+    case ir::OpCode::Const: timer.constant = op->imm; return;
+    case ir::OpCode::Load:
+      timer.preset = {.type = op->type,
+                      .slot = {},
+                      .space = ir::SpaceId{op->ref},
+                      .byte = static_cast<uint32_t>(static_cast<uint64_t>(op->imm) / 8)};
+      return;
+    case ir::OpCode::ZExt:
+    case ir::OpCode::SExt:
+    case ir::OpCode::Trunc: value = ir::arg(rung, *op, 0); break;
+    default: return;
+    }
+  }
+}
+
+bool isSame(const ir::TimerCell& a, const ir::TimerCell& b) {
+  return a.slot == b.slot && a.space == b.space && a.byte == b.byte;
+}
+
+} // namespace
+
+void Lowering::addTimer(const CountCell& cell, ValueId preset) {
+  if (!cell.automatic && cell.access.indexed) return;
+  ir::Timer timer{.name = written(program.source, statement()), .flags = RUNG_TIMER_RUNS};
+  timer.time = {.type = cell.type, .slot = cell.slot, .space = cell.access.place.space, .byte = cell.access.place.byte};
+  describePreset(b().rung(), preset, timer);
+  std::vector<ir::Timer>& timers = emitter.module().timers;
+  const auto other = std::ranges::find_if(timers, [&](const ir::Timer& t) { return isSame(t.time, timer.time); });
+  if (other == timers.end()) return timers.push_back(std::move(timer));
+  if (other->name == timer.name) return;
+  other->name = other->name.substr(0, other->name.find(','));
+  other->preset = {};
+  other->constant = -1;
+}
+
 // Marks of contacts and coils.
 
 namespace {
@@ -49,9 +104,8 @@ bool isLogic(const Row& row) {
 void Marking::note(ir::MarkKind kind, const Statement& statement, ir::ValueId value) {
   if (marks_ == nullptr) return;
   const RungSource at = sourceOf(program_, statement);
-  std::string text(statement.row->info.mnemonic);
-  if (statement.tokenCount != 0) text.append(" ").append(spelled(program_.operandTokens(statement)));
-  marks_->add(emitter_.out().routine(), emitter_.out().openRung(), {kind, value, at.line, at.column, std::move(text)});
+  marks_->add(emitter_.out().routine(), emitter_.out().openRung(),
+              {kind, value, at.line, at.column, written(program_, statement)});
 }
 
 void Marking::decision(const Statement& statement) {

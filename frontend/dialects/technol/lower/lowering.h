@@ -58,6 +58,9 @@ public:
   // State of this statement only.
   ir::SlotId ownSlot(ir::Type type) { return state.newSlot(type, *statement_, mnemonic()); }
   CountCell countCell(const Operand& operand) { return state.countCell(operand, *statement_); }
+  // The statement as a timer that counts its runs up to a value of the open rung, for displays. One whose cell is
+  // computed is left out; of statements that share a cell it is not known which one runs.
+  void addTimer(const CountCell& cell, ir::ValueId preset);
   void callProcedure(uint32_t procedure, ir::ValueId cond = {}) {
     procedures.call(procedure, typed_->stack.depth, cond);
   }

@@ -271,10 +271,11 @@ TEST(HostRecording, IsPlayedWithItsControlFromAnyPlace) {
 // and after it is.
 TEST(HostRecording, SaysThatAReplacementWasPreparedBefore) {
   const TemporaryFolder folder;
-  std::string text = kProgram;
+  std::string text = RecordedHost::kProgram;
   text.replace(text.find("PRM 40"), 6, "PRM 56");
-  Program first(kProgram), second(text);
-  const rung::Image image = first.image(), other = second.image();
+  HostProgram first(RecordedHost::kProgram), second(text);
+  const rung::Image image = rung::Image::adopt(first.engine->program(), first.engine->context());
+  const rung::Image other = rung::Image::adopt(second.engine->program(), second.engine->context());
   rung::Instance instance(image);
   instance.powerOn(rung::Power::Cold);
   rung_replacement* early = nullptr;
@@ -300,9 +301,7 @@ TEST(HostRecording, SaysThatAReplacementWasPreparedBefore) {
   EXPECT_EQ(problem(), "");
   EXPECT_EQ(rung_instance_record(instance.handle(), nullptr), RUNG_OK);
   EXPECT_EQ(rung_replacement_free(early), RUNG_OK);
-  std::vector<std::unique_ptr<compiler::Compiled>> known;
-  known.push_back(std::move(first.compiled));
-  const Result<Recording> recording = readRecording(path, std::move(known));
+  const Result<Recording> recording = readRecording(path, {first.compiled});
   ASSERT_TRUE(recording.ok()) << recording.error();
   const auto past = open(recording.value());
   EXPECT_EQ(played(*past).size(), 170u);

@@ -53,7 +53,7 @@ std::string listenProblem(const std::string& listen) {
 }
 
 int serveSession(const std::string& title, const std::string& listen, const compiler::Compiled& compiled,
-                 scenario::Session& session, const scenario::Explainer& explainer, replay::FlowEngine& engine,
+                 scenario::Session& session, scenario::Explainer& explainer, replay::FlowEngine& engine,
                  const std::function<bool()>& ended) {
   const Result<web::ShownProgram> program = shownProgram(title, compiled);
   if (!program.ok()) return environmentError(program.error());

@@ -21,7 +21,7 @@ std::string listenProblem(const std::string& listen);
 
 // The session has started; its only engine is that of `engine`.
 int serveSession(const std::string& title, const std::string& listen, const compiler::Compiled& compiled,
-                 scenario::Session& session, const scenario::Explainer& explainer, replay::FlowEngine& engine,
+                 scenario::Session& session, scenario::Explainer& explainer, replay::FlowEngine& engine,
                  const std::function<bool()>& ended);
 int servePast(const std::string& title, const std::string& listen, replay::Past& past,
               const std::function<bool()>& ended);

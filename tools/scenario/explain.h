@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "ir/analysis/uses.h"
 #include "tools/scenario/changes.h"
@@ -30,6 +31,23 @@ public:
   }
 
   bool knowsProgram() const { return uses_ != nullptr; }
+
+  // For a caller that goes back and forth with snapshots: after a `restore` scans are counted from `scan`; or the
+  // caller has come to the scan again at which this was known.
+  struct Known {
+    std::optional<Changes> changes;
+    std::string_view since;
+  };
+  Known known() const { return {changes_, since_}; }
+  void restoredAt(uint64_t scan) {
+    if (changes_) changes_->beginAt(session_, scan);
+  }
+  void comeBack(Known known) {
+    changes_ = std::move(known.changes);
+    since_ = known.since;
+    if (changes_) changes_->continueIn(session_);
+  }
+
   // The explanation, each line preceded by a line break; "" for a place in the NC and not in the program's memory.
   // `wantReal`: explains the real number that begins there.
   std::string why(std::string_view name, bool wantReal = false) const;

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <memory>
-#include <utility>
 
 #include "ir/interp/interp.h"
 #include "tools/report/place_names.h"
@@ -56,10 +55,10 @@ void observeForces(scenario::Session& session, replay::FlowEngine& engine) {
   static_cast<ir::InterpEngine&>(engine.engine()).setObserver(std::make_unique<HeldBits>(session.instance()));
 }
 
-SessionSource::SessionSource(scenario::Session& session, const scenario::Explainer& explainer,
-                             const ShownProgram& program, replay::FlowEngine& engine)
+SessionSource::SessionSource(scenario::Session& session, scenario::Explainer& explainer, const ShownProgram& program,
+                             replay::FlowEngine& engine)
     : session_(session), explainer_(explainer), engine_(engine), states_(engine, program),
-      places_(program, session.instance(), session.nc(), states_) {
+      places_(program, session.instance(), session.nc(), states_), scan_(session.scans()), last_(scan_) {
   keepMoment();
 }
 
@@ -85,21 +84,22 @@ void SessionSource::oneScan() {
   if (!isNew) return;
   if (!problem.empty()) logHere("fault", problem);
   compareMessages(session_.instance(), session_.nc().control(), scan_);
-  if (session_.instance().faulted() && !std::exchange(faulted_, true))
-    logHere("fault", session_.instance().faultText());
+  checkTrigger();
+  const bool faulted = session_.instance().faulted();
+  if (faulted && !faulted_) logHere("fault", session_.instance().faultText());
+  faulted_ = faulted;
   if (moments_.empty() || session_.nowUs() - moments_.back().us >= kMomentEveryUs) keepMoment();
 }
 
-// A program that has stopped within a scan cannot be continued: then there is no moment.
+// The oldest moment makes room for a new one. A program that has stopped within a scan cannot be continued: then there
+// is no new one.
 void SessionSource::keepMoment() {
-  Moment moment{scan_, session_.nowUs(), done_.size(), {}};
-  if (moments_.size() == kMostMoments) {
-    moment.name = std::move(moments_.front().name);
-    moments_.pop_front();
-  } else {
-    moment.name = fmt::format("web-{}", moments_.size());
-  }
-  if (statement("snapshot " + moment.name).empty()) moments_.push_back(std::move(moment));
+  const bool full = moments_.size() == kMostMoments;
+  Moment moment{scan_, session_.nowUs(), done_.size(),
+                full ? moments_.front().name : fmt::format("web-{}", moments_.size())};
+  if (!statement("snapshot " + moment.name).empty()) return;
+  if (full) moments_.pop_front();
+  moments_.push_back(std::move(moment));
 }
 
 // Back to a moment before the scan, and forwards again with what was done meanwhile, so that its flow is seen again.
@@ -113,11 +113,18 @@ Result<std::string> SessionSource::seek(uint64_t scan) {
       if (const std::string problem = statement("restore " + from.name); !problem.empty()) return failure(problem);
       scan_ = from.scan;
       nextDone_ = from.statements;
+      explainer_.restoredAt(scan_);
     }
     while (scan_ < scan) nextScan();
   }
   if (scan_ == last_) repeat();
   return fmt::format("scan {}", scan);
+}
+
+// What is known of earlier changes is known again at the same scan.
+std::shared_ptr<void> SessionSource::whileAway() {
+  auto known = std::make_shared<scenario::Explainer::Known>(explainer_.known());
+  return {nullptr, [this, known](void*) { explainer_.comeBack(std::move(*known)); }};
 }
 
 // What was executed before the next scan.

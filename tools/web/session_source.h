@@ -20,7 +20,7 @@ void observeForces(scenario::Session& session, replay::FlowEngine& engine);
 class SessionSource final : public PacedSource {
 public:
   // All arguments must outlive it. The session has started; observeForces was called with both.
-  SessionSource(scenario::Session& session, const scenario::Explainer& explainer, const ShownProgram& program,
+  SessionSource(scenario::Session& session, scenario::Explainer& explainer, const ShownProgram& program,
                 replay::FlowEngine& engine);
 
   bool isLive() const override { return true; }
@@ -44,7 +44,13 @@ private:
   int64_t nowUs() const override { return session_.nowUs(); }
   uint64_t shownScan() const override { return scan_; }
   uint64_t firstScan() const override { return moments_.empty() ? scan_ : std::min(moments_.front().scan + 1, last_); }
+  uint64_t lastScan() const override { return last_; }
+  const runtime::Instance& instance() const override { return session_.instance(); }
+  const sim::SimulatedNc& nc() const override { return session_.nc(); }
+  replay::FlowEngine& flowEngine() override { return engine_; }
+  const replay::Flow* shownFlow() override { return &engine_.flow(); }
   Result<std::string> seek(uint64_t scan) override;
+  std::shared_ptr<void> whileAway() override;
   std::string valueOf(const std::string& name) const override;
   Result<std::string> carryOut(const Order& order) override;
   Result<Why> explain(const std::string& name) override;
@@ -60,7 +66,7 @@ private:
   std::vector<ForcedCell> forces();
 
   scenario::Session& session_;
-  const scenario::Explainer& explainer_;
+  scenario::Explainer& explainer_;
   replay::FlowEngine& engine_;
   ElementStates states_;
   const NamePlaces places_;
@@ -69,7 +75,7 @@ private:
   std::deque<Moment> moments_; // oldest first
   std::vector<Done> done_;     // oldest first
   size_t nextDone_ = 0;        // of done_: the first that has not been executed at this scan
-  bool faulted_ = false;
+  bool faulted_ = false;       // at the newest scan
 };
 
 } // namespace rung::web

@@ -301,14 +301,15 @@ private:
     return (states_[cell] & kWired) != 0 ? std::optional(before(cell)) : state(cell);
   }
 
-  // The value of a register at its contact: what the last output before it has got, else what follows needs.
+  // The value of a register at its contact: what an output before it has stored, else what follows needs.
   std::optional<bool> stored(uint32_t cell) {
-    for (uint32_t earlier = cell; at(cell).operand.name == kResultRegister && earlier-- > 0;) {
+    for (uint32_t earlier = cell; earlier-- > 0;) {
       const Cell& one = at(earlier);
-      const bool output = one.kind == Cell::Kind::Coil || one.kind == Cell::Kind::Box;
-      if (output && one.operand.name == kStackRegister) continue;
-      if (output && ((states_[earlier] & kWired) == 0 || isRegister(one)))
-        return isRegister(one) ? before(earlier) : state(earlier);
+      if (one.kind != Cell::Kind::Coil && one.kind != Cell::Kind::Box) continue;
+      if (isRegister(one) && one.operand.name == at(cell).operand.name) return before(earlier);
+      // Every output that depends on the result has got it.
+      const bool got = !isRegister(one) && (states_[earlier] & kWired) == 0;
+      if (got && at(cell).operand.name == kResultRegister) return state(earlier);
     }
     return wanted(cell);
   }

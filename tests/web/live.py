@@ -4,6 +4,7 @@ import re
 import subprocess
 import sys
 import threading
+import urllib.error
 import urllib.request
 from pathlib import Path
 
@@ -17,8 +18,8 @@ LINK = re.compile(r"http://([^/]+)/\?token=([0-9a-f]+)")
 class Live:
     """rungc run … --web, until close()."""
 
-    def __init__(self, rungc, *words, cwd=ROOT, command="run"):
-        self.process = subprocess.Popen([rungc, command, *map(str, words), "--web"], cwd=cwd, stdout=subprocess.PIPE,
+    def __init__(self, rungc, *words, cwd=ROOT, command="run", under=()):
+        self.process = subprocess.Popen([*under, rungc, command, *map(str, words), "--web"], cwd=cwd, stdout=subprocess.PIPE,
                                         stderr=subprocess.STDOUT, text=True)
         printed = []
         found = None
@@ -59,6 +60,16 @@ class Live:
 
     def order(self, what, **more):
         return self.ask("order", {"do": what, **more})["done"]
+
+    def refusal(self, what, **more):
+        """Why the program does not take it (status 409); None if it has. Any other error is one of the test."""
+        try:
+            self.order(what, **more)
+            return None
+        except urllib.error.HTTPError as error:
+            if error.code != 409:
+                raise
+            return error.read().decode()
 
     def close(self):
         self.process.terminate()

@@ -10,6 +10,7 @@ from live import ROOT, Live
 RUNGC = ""
 EXAMPLE = ROOT / "examples" / "gsk-mill"
 LAMP = ROOT / "tests" / "web" / "toggle.lad"
+WITHIN = ROOT / "tests" / "web" / "within.lad"
 
 
 class Page(unittest.TestCase):
@@ -126,7 +127,7 @@ class Page(unittest.TestCase):
                         "s.dispatchEvent(new MouseEvent('click', {clientX: b.left + b.width - 1}))")
         self.browser.until("return document.getElementById('scan').textContent === String(arguments[0])", "the last scan of it", newest)
         self.run_on()
-        self.browser.js("[...document.querySelectorAll('#watch button')].find(b => b.textContent === 'Remove').click()")
+        self.browser.js("document.querySelector('#watch td .close').click()")
         self.browser.until("return document.querySelectorAll('#watch tbody tr').length === 0", "removed")
 
     def test_inputs_and_outputs(self):
@@ -193,6 +194,68 @@ class Page(unittest.TestCase):
         unnamed = page.js("return [...document.querySelectorAll('button,input,select,[role]')].filter(e => e.offsetParent && "
                           "!e.textContent.trim() && !e.getAttribute('aria-label') && !e.getAttribute('aria-labelledby')).map(e => e.outerHTML)")
         self.assertEqual(unnamed, [])
+
+    def test_trigger(self):
+        """A trace around the scan in which a condition began to hold, with scans before and after it."""
+        page = self.browser
+        page.click("#tab-watch")
+        page.js("localStorage.clear()")
+        page.find("#watch .add input").send_keys("X_ESP", Keys.ENTER)
+        page.until("return document.querySelector('#watch td.value')", "a value")
+        page.js("document.querySelector('.when').value = 'NO_SUCH_NAME'")
+        page.click("#arm")
+        page.until("return /NO_SUCH_NAME/.test(document.getElementById('toast').textContent)", "what is wrong")
+        self.assertEqual(page.text("#hits"), "")
+        self.assertEqual([" 409 " in error for error in page.errors()], [True])
+        page.js("document.querySelector('.when').value = 'falls X_ESP'")
+        page.js("document.querySelector('[aria-label=\"Scans of a trace\"]').value = '100'")
+        page.click("#arm")
+        page.until("return /^Waiting for falls X_ESP/.test(document.getElementById('hits').textContent)", "it waits")
+        for value in ("1", "0"):
+            self.live.order("set", name="X_ESP", value=value, writing=True)
+            at = self.scan()
+            page.until("return Number(document.getElementById('scan').textContent) > arguments[0] + 5", "scans", at)
+        page.until("return /1 of 1: scan \\d+/.test(document.getElementById('hits').textContent)", "the trace")
+        page.until("return document.querySelector('.lines .hit')", "its line")
+        hit = int(page.text("#hits a"))
+        page.until("return document.getElementById('arm').textContent === 'Wait for it'", "once")
+        label = page.js("return document.querySelector('.lines svg').getAttribute('aria-label')")
+        self.assertEqual(label, f"X_ESP from scan {hit - 49} to {hit + 50}: 0 to 0")
+        page.click("#tab-log")
+        page.until("return [...document.querySelectorAll('.k-trigger')].some(row => /falls X_ESP/.test(row.textContent))", "in the history")
+        page.click("#tab-watch")
+        page.js("document.querySelector('#watch td .close').click()")
+
+    def test_profile(self):
+        """Shares of the rungs as colours, with figures and a legend."""
+        page = self.browser
+        page.click("#profile")
+        page.until("return document.querySelectorAll('#legend .heat').length === 5", "the legend")
+        page.until("return document.querySelectorAll('.share').length > 1", "shares at the rungs")
+        shares = self.live.ask("shares?scans=50")
+        self.assertAlmostEqual(sum(rung[2] for rung in shares["rungs"]), 1, places=6)
+        self.assertEqual(shares["last"] - shares["first"], 49)
+        self.assertEqual(max(rung[3] for rung in shares["rungs"]), 5)
+        hottest = page.js("const a = document.querySelector('#legend a'); a.click(); return a.textContent")
+        page.until("return document.getElementById('r' + arguments[0])?.dataset.heat === '5'", "the hottest", hottest)
+        self.assertRegex(page.text(f"#r{hottest} .share"), r"^\d+(\.\d)? %, (once a scan|\d+ runs in 200 scans)$")
+        page.click("#profile")
+        page.until("return !document.querySelector('.share') && document.getElementById('legend').hidden", "gone")
+
+    def test_messages(self):
+        """Each message with the times when it came, was acknowledged, and went."""
+        page = self.browser
+        page.click("#tab-log")
+        page.until("return document.querySelectorAll('#alarms tbody tr.on').length > 0", "a message that is on")
+        self.assertEqual(self.live.refusal("seek", scans=1), None)
+        self.run_on()
+        page.until("return document.querySelector('#alarms tbody tr.on td:nth-child(2) a')", "its scan")
+        page.click("#writing")
+        page.js("[...document.querySelectorAll('dialog button')].find(b => b.textContent === 'Switch on').click()")
+        page.until("return [...document.querySelectorAll('#log button')].some(b => b.textContent === 'Acknowledge all' && b.offsetParent)", "the button")
+        page.js("[...document.querySelectorAll('#log button')].find(b => b.textContent === 'Acknowledge all').click()")
+        page.until("return document.querySelector('#alarms tbody tr.on td:nth-child(3) a')", "acknowledged")
+        page.click("#writing")
 
     def test_phone(self):
         page = Browser()
@@ -317,6 +380,27 @@ class Alternating(unittest.TestCase):
                 };
                 look();""")
             self.assertEqual(seen, ["0101", "1010"])
+        finally:
+            page.close()
+            live.close()
+
+    def test_within_a_scan(self):
+        """X becomes its opposite within each scan: each contact shows what it was when its rung was evaluated."""
+        live = Live(RUNGC, WITHIN)
+        page = Browser()
+        try:
+            page.open(live.link)
+            page.until("return document.querySelectorAll('article').length === 5", "rungs")
+            seen = page.driver.execute_async_script("""
+                const done = arguments[0], seen = new Set();
+                let left = 400;
+                const on = (rung, name) => document.querySelector(`#r${rung} [data-name=${name}]`).dataset.on;
+                const look = () => {
+                  seen.add(on(3, 'X') + on(3, 'FIRST') + on(5, 'X') + on(5, 'SECOND'));
+                  if (--left) requestAnimationFrame(look); else done([...seen].sort());
+                };
+                look();""")
+            self.assertEqual(seen, ["0011", "1100"])
         finally:
             page.close()
             live.close()

@@ -71,7 +71,17 @@ void SessionRecorder::flush() {
   }
 }
 
+void SessionRecorder::setPaused(bool paused) {
+  paused_ = paused;
+  instance_->setOutsideWatch(paused ? nullptr : recorder_.get());
+}
+
+void SessionRecorder::scanned(const scenario::Session&) {
+  if (!paused_) drain();
+}
+
 void SessionRecorder::executing(const scenario::Session&, const scenario::Statement& statement) {
+  if (paused_) return;
   recorder_->mark(statement.file.empty() ? statement.text
                                          : fmt::format("{}:{}: {}", statement.file, statement.line, statement.text));
 }

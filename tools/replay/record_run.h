@@ -25,8 +25,11 @@ public:
   SessionRecorder& operator=(const SessionRecorder&) = delete;
 
   void executing(const scenario::Session& session, const scenario::Statement& statement) override;
-  void scanned(const scenario::Session&) override { drain(); }
+  void scanned(const scenario::Session& session) override;
   void replaced(const scenario::Session& session, const scenario::NextProgram& next) override;
+
+  // Paused: what happens is not recorded. When it continues, the session must be in the same state as then.
+  void setPaused(bool paused);
 
   // What has been recorded so far; it is of these programs.
   Result<Recording> soFar(std::vector<std::shared_ptr<const compiler::Compiled>> programs);
@@ -44,6 +47,7 @@ private:
   std::string folder_;                               // of files
   std::unique_ptr<runtime::RecordedBytes> bytes_;    // of the former program
   uint64_t scans_ = 0;
+  bool paused_ = false;
   Recording recording_;
 };
 

@@ -1,6 +1,7 @@
 // See session_past.h.
 #include "tools/replay/session_past.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <utility>
 
@@ -28,6 +29,11 @@ void SessionPast::replaced(const scenario::Session& session, const scenario::Nex
   if (next.compiled) programs_.push_back(next.compiled);
 }
 
+void SessionPast::setRepeats(bool repeats) {
+  if (repeats == std::exchange(repeats_, repeats)) return;
+  recorder_->setPaused(repeats);
+}
+
 // The programs stay those of the session.
 Result<Recording> SessionPast::recording() {
   std::vector<std::shared_ptr<const compiler::Compiled>> programs;
@@ -39,7 +45,7 @@ Result<Recording> SessionPast::recording() {
   return recorder_->soFar(std::move(programs));
 }
 
-Result<std::string> SessionPast::why(const std::string& name) {
+Result<std::string> SessionPast::why(const std::string& name, uint64_t back) {
   const Result<scenario::Reading> now = scenario::readName(session_.instance(), session_.nc(), name, false);
   if (!now.ok()) return now.failure();
   const std::string value = scenario::show(now.value());
@@ -51,7 +57,8 @@ Result<std::string> SessionPast::why(const std::string& name) {
   const Result<std::unique_ptr<Past>> opened = Past::open(recording.value(), {.engine = compiler::EngineKind::Interp});
   if (!opened.ok()) return fmt::format("{} = {}; no scan has run", name, value);
   Past& past = *opened.value();
-  if (std::string problem = past.goTo(past.contents().parts); !problem.empty()) return failure(std::move(problem));
+  if (std::string problem = past.goTo(past.contents().parts - std::min(back, past.contents().parts)); !problem.empty())
+    return failure(std::move(problem));
   const Result<scenario::Reading> then = scenario::readName(past.instance(), session_.nc(), name, false);
   if (then.ok() && scenario::show(then.value()) != value)
     return fmt::format("{} = {}, set after {}; no scan has run since", name, value, positionText(past));

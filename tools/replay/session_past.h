@@ -20,8 +20,12 @@ public:
   void scanned(const scenario::Session& session) override;
   void replaced(const scenario::Session& session, const scenario::NextProgram& next) override;
 
+  // While the session repeats scans and statements that have been, from a snapshot on, nothing of it is recorded.
+  void setRepeats(bool repeats);
+
   // The chain, as `rungc replay` prints it, for a name of the program or of the NC; the error says what is wrong.
-  Result<std::string> why(const std::string& name);
+  // `back`: so many scans before the newest one, where the session is while it repeats.
+  Result<std::string> why(const std::string& name, uint64_t back = 0);
 
 private:
   Result<Recording> recording();
@@ -30,6 +34,7 @@ private:
   std::vector<compiler::GetCompiled> programs_; // all that have run
   std::unique_ptr<SessionRecorder> own_;
   SessionRecorder* recorder_;
+  bool repeats_ = false;
 };
 
 } // namespace rung::replay

@@ -84,8 +84,16 @@ void Changes::watch(const rung_program& program, const std::vector<ir::BitRange>
   scans_.resize(size_t{size} * 8);
 }
 
+void Changes::beginAt(const Session& session, uint64_t scan) {
+  scan_ = scan;
+  continueIn(session);
+  paces_.clear();
+  noteTime(scan_, session.nowUs());
+  begin_ = {scan_, session.nowUs()};
+}
+
 void Changes::scanned(const Session& session) {
-  scan_ = session.scans();
+  scan_ = session.scans() - ahead_;
   noteTime(scan_, session.nowUs());
   const uint8_t* block = session.instance().block().data();
   for (const Span& span : spans_)

@@ -22,6 +22,12 @@ public:
   };
   // The scan at which it was made.
   Scan begin() const { return begin_; }
+  // The scan that has ended last.
+  uint64_t scan() const { return scan_; }
+  // For a session that has gone back, and counts on all the same: `scan` has ended last. The first one is for Changes
+  // that have just been made, the other for a copy of what was known at that scan.
+  void beginAt(const Session& session, uint64_t scan);
+  void continueIn(const Session& session) { ahead_ = session.scans() - scan_; }
   // The last scan that ended with another value than the scan before; number 0: no change since the beginning. Nothing
   // for places that rungs do not use.
   std::optional<Scan> last(const runtime::Instance& instance, const ir::BitRange& place) const;
@@ -53,6 +59,7 @@ private:
   std::vector<uint32_t> scans_; // scan of the last change, by bit of copy_
   std::vector<Pace> paces_;
   uint64_t scan_ = 0;
+  uint64_t ahead_ = 0; // scans that the session has counted beyond these
   Scan begin_;
 };
 

@@ -116,7 +116,7 @@ std::string Explanation::forceOf(const Ref& place) const {
 
 // ", changed in scan 5 (0.050 s)"
 std::string Explanation::age(const Ref& place) const {
-  if (changes_.pending(instance_, bitsOf(place))) return fmt::format(", set after scan {}", session_.scans());
+  if (changes_.pending(instance_, bitsOf(place))) return fmt::format(", set after scan {}", changes_.scan());
   const auto last = changes_.last(instance_, bitsOf(place));
   if (!last) return {};
   if (last->number == 0) return ", unchanged since " + beginning_;

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "ir/analysis/uses.h"
 #include "tools/scenario/changes.h"

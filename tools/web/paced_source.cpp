@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <fmt/format.h>
+#include <utility>
 
 #include "tools/report/place_names.h"
+#include "tools/scenario/names.h"
 
 namespace rung::web {
 namespace {
@@ -85,6 +87,7 @@ void PacedSource::publish(const std::set<std::string>& names) {
   const std::lock_guard lock(mutex_);
   made->revision = picture_ == nullptr ? 1 : picture_->revision + 1;
   made->lastEvent = lastEvent_;
+  made->trigger = triggerText_;
   picture_ = std::move(made);
   news_.notify_all();
 }
@@ -142,22 +145,112 @@ Result<Why> PacedSource::why(const std::string& name) {
   return hand<Why>([this, name] { return explain(name); });
 }
 
-Result<ScanTrace> PacedSource::trace(const std::vector<std::string>& names, uint64_t scans) {
-  return hand<ScanTrace>([this, names, scans] { return readTrace(names, scans); });
+Result<ScanTrace> PacedSource::trace(const std::vector<std::string>& names, uint64_t scans, uint64_t last) {
+  return hand<ScanTrace>([this, names, scans, last] { return readTrace(names, scans, last); });
 }
 
-// Goes back and comes to the same scan again.
-Result<ScanTrace> PacedSource::readTrace(const std::vector<std::string>& names, uint64_t scans) {
+Result<Shares> PacedSource::shares(uint64_t scans) {
+  return hand<Shares>([this, scans] { return readShares(scans); });
+}
+
+// Visits scans that have been, and comes to the same scan again. "" or why that is impossible.
+template <class Visit>
+std::string PacedSource::visit(uint64_t first, uint64_t last, Visit visitor) {
   const uint64_t here = shownScan();
-  const uint64_t wanted = here > scans ? here - scans + 1 : 1;
-  ScanTrace trace{std::max(wanted, std::min(firstScan(), here)), std::vector<std::vector<std::string>>(names.size())};
-  if (const auto there = seek(trace.firstScan); !there.ok()) return there.failure();
-  for (uint64_t scan = trace.firstScan; scan <= here; ++scan) {
-    if (scan > trace.firstScan) (void)nextScan();
-    for (size_t i = 0; i < names.size(); ++i) trace.values[i].push_back(valueOf(names[i]));
+  if (const auto there = seek(first); !there.ok()) return there.error();
+  for (uint64_t scan = first; scan <= last; ++scan) {
+    if (scan > first) (void)nextScan();
+    visitor();
   }
-  if (const auto back = seek(here); !back.ok()) return back.failure();
+  const auto back = seek(here);
+  return back.ok() ? "" : back.error();
+}
+
+// The first of so many scans that end with `last`, as far as they can be shown.
+uint64_t PacedSource::firstOf(uint64_t scans, uint64_t last) const {
+  const uint64_t wanted = last > scans ? last - scans + 1 : 1;
+  return std::max(wanted, std::min(firstScan(), last));
+}
+
+Result<ScanTrace> PacedSource::readTrace(const std::vector<std::string>& names, uint64_t scans, uint64_t last) {
+  last = last == 0 ? shownScan() : std::min(last, lastScan());
+  ScanTrace trace{firstOf(scans, last), std::vector<std::vector<std::string>>(names.size())};
+  const std::string problem = visit(trace.firstScan, last, [&] {
+    for (size_t i = 0; i < names.size(); ++i) trace.values[i].push_back(valueOf(names[i]));
+  });
+  if (!problem.empty()) return failure(problem);
   return trace;
+}
+
+Result<Shares> PacedSource::readShares(uint64_t scans) {
+  const replay::Elements& elements = flowEngine().elements();
+  Shares shares{firstOf(scans, shownScan()), shownScan(), {}};
+  for (const replay::SourceRung& rung : elements.rungs()) shares.rungs.push_back({rung.number, 0, 0});
+  const std::string problem = visit(shares.firstScan, shares.lastScan, [&] {
+    const replay::Flow* flow = shownFlow();
+    if (flow == nullptr) return;
+    const std::vector<uint32_t> times = flow->timesRun();
+    for (size_t i = 0; i < times.size(); ++i) shares.rungs[i].runs += times[i];
+    for (const replay::RungFlow& run : flow->runs())
+      if (const uint32_t rung = elements.rungOf(run.lowered); rung != replay::kNone)
+        shares.rungs[rung].operations += flowEngine().rung(run.lowered).ops.size();
+  });
+  if (!problem.empty()) return failure(problem);
+  return shares;
+}
+
+// ---- trigger, messages ---------------------------------------------------------------------------------------------
+
+Result<runtime::Ref> PacedSource::locate(std::string_view name) const {
+  const rung_program& program = instance().program();
+  if (const auto place = nc().readPlace(program, std::string(name))) return *place;
+  return failure(scenario::unknownName(program, nc(), std::string(name)));
+}
+
+Result<std::string> PacedSource::setTrigger(const std::string& condition) {
+  return hand<std::string>([this, condition] { return trigger(condition); });
+}
+
+Result<std::string> PacedSource::trigger(const std::string& condition) {
+  std::optional<replay::Condition> parsed;
+  if (!condition.empty()) {
+    auto read = replay::Condition::parse(condition, [this](std::string_view name) { return locate(name); });
+    if (!read.ok()) return read.failure();
+    parsed = std::move(read).value();
+  }
+  trigger_ = std::move(parsed);
+  {
+    const std::lock_guard lock(mutex_);
+    triggerText_ = condition;
+  }
+  if (!trigger_) return std::string("no trigger");
+  searchPast(*trigger_, condition);
+  // In the past it is not known whether it holds in the newest scan: then it is taken as holding.
+  triggerHeld_ = shownScan() < lastScan() || trigger_->holds(instance().memory());
+  return "looking for: " + condition;
+}
+
+void PacedSource::checkTrigger() {
+  if (!trigger_) return;
+  const bool held = std::exchange(triggerHeld_, trigger_->holds(instance().memory()));
+  if (triggerHeld_ && !held) log("trigger", triggerText_, shownScan(), nowUs());
+}
+
+Result<std::string> PacedSource::acknowledge() {
+  return hand<std::string>([this]() -> Result<std::string> {
+    if (messages_.empty()) return failure("no message is shown");
+    for (const nc::ShownMessage& one : messages_)
+      log("acknowledged", fmt::format("{} {}", numberOf(one), one.text), lastScan(), nowUs());
+    return fmt::format("{} acknowledged", messages_.size());
+  });
+}
+
+// ---- forces --------------------------------------------------------------------------------------------------------
+
+std::vector<ForcedCell> PacedSource::forcedCells(const NamePlaces& places) const {
+  std::vector<ForcedCell> cells = places.forced(instance());
+  for (ForcedCell& cell : cells) cell.value = valueOf(cell.name);
+  return cells;
 }
 
 // ---- pages ---------------------------------------------------------------------------------------------------------
@@ -203,17 +296,59 @@ NamePlaces::NamePlaces(const ShownProgram& program, const runtime::Instance& ins
   for (const view::NameTable& table : program.tables())
     for (const view::NameRow& row : table.rows)
       if (!row.name.empty() && !row.constant && !table.texts)
-        if (const auto place = nc.readPlace(running, row.name)) places_.emplace_back(report::bitsOf(*place), row.id);
+        if (const auto place = nc.readPlace(running, row.name))
+          names_.push_back({*place, report::bitsOf(*place), &row});
+  std::ranges::stable_sort(names_, std::ranges::greater(), [](const Named& one) { return one.bits.count; });
   for (const ShownProgram::Contact& contact : program.contacts())
-    if (const auto place = nc.readPlace(running, contact.name); place && !states.shows(contact.element))
+    if (const auto place = nc.readPlace(running, contact.name); place && states.isConstant(report::bitsOf(*place)))
       states.setConstant(contact.element, (instance.read(*place) != 0) != contact.negated);
 }
 
 std::vector<uint32_t> NamePlaces::at(const ir::BitRange& place) const {
   std::vector<uint32_t> rows;
-  for (const auto& [of, row] : places_)
-    if (ir::overlap(of, place)) rows.push_back(row);
+  for (const Named& one : names_)
+    if (ir::overlap(one.bits, place)) rows.push_back(one.row->id);
   return rows;
+}
+
+namespace {
+
+using HeldBytes = std::map<uint32_t, uint8_t>; // bits, by offset in the block
+
+bool isHeld(const HeldBytes& held, const core::Place& place) {
+  if (place.outside() || place.apart()) return false;
+  for (uint32_t i = 0; i < 8; ++i) {
+    const auto bits = static_cast<uint8_t>(place.mask >> (8 * i));
+    if (bits == 0) continue;
+    const auto at = held.find(place.window + i);
+    if (at == held.end() || (at->second & bits) != bits) return false;
+  }
+  return true;
+}
+
+bool contains(const ir::BitRange& whole, const ir::BitRange& part) {
+  return whole.space == part.space && whole.first <= part.first && part.first + part.count <= whole.first + whole.count;
+}
+
+} // namespace
+
+std::vector<ForcedCell> NamePlaces::forced(const runtime::Instance& instance) const {
+  std::vector<ForcedCell> cells;
+  if (!instance.forced()) return cells;
+  HeldBytes held;
+  for (const core::ForcedBits& bits : instance.forcedBits()) held[bits.offset] |= bits.mask;
+  std::vector<ir::BitRange> found; // by cell
+  for (const Named& one : names_) {
+    if (!isHeld(held, runtime::locate(instance.memory(), one.place))) continue;
+    const auto whole = std::ranges::find_if(found, [&](const ir::BitRange& of) { return contains(of, one.bits); });
+    if (whole == found.end()) {
+      found.push_back(one.bits);
+      cells.push_back({one.row->name, {}, {one.row->id}});
+    } else {
+      cells[static_cast<size_t>(whole - found.begin())].rows.push_back(one.row->id);
+    }
+  }
+  return cells;
 }
 
 } // namespace rung::web

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "rtlib/text/embedded.h"
+#include "tools/view/overlay.h"
 #include "tools/view/style.h"
 #include "tools/view/svg.h"
 #include "tools/web/files.h"
@@ -21,6 +22,7 @@ constexpr uint32_t kMostRows = 120;   // of one answer
 constexpr size_t kMostNames = 200;    // that one page follows by name
 constexpr size_t kMostTraced = 16;    // names of a trace
 constexpr uint64_t kMostScans = 2000; // of a trace
+constexpr uint64_t kMostShares = 500; // scans of a profile
 constexpr auto kWait = 1000ms;        // for a picture newer than the last one
 constexpr size_t kMostPageName = 64;  // characters
 
@@ -67,18 +69,25 @@ std::string styleSheet(const view::Program& drawing) {
                      light, dark, view::pictureStyle(drawing, true));
 }
 
-json namesOf(const std::vector<view::NameTable>& tables) {
+json namesOf(const ShownProgram& program) {
+  const std::map<uint32_t, std::set<std::string>> shapes = program.shapes();
   json all = json::array();
-  for (const view::NameTable& table : tables) {
+  for (const view::NameTable& table : program.tables()) {
     for (const view::NameRow& row : table.rows) {
       if (row.name.empty()) continue;
       json uses = json::array();
       for (const view::Use& use : row.uses) uses.push_back(use.writes ? -static_cast<int64_t>(use.rung) : use.rung);
       const char* kind = table.texts ? "t" : row.constant ? "c" : row.input ? "i" : row.output ? "o" : "";
-      all.push_back({row.id, row.name, row.address, row.comment, kind, std::move(uses)});
+      const auto drawn = shapes.find(row.id);
+      all.push_back({row.id, row.name, row.address, row.comment, kind, std::move(uses),
+                     drawn == shapes.end() ? json::array() : json(drawn->second)});
     }
   }
   return all;
+}
+
+Response doneOf(const Result<std::string>& done) {
+  return done.ok() ? jsonOf({{"done", done.value()}}) : textOf(409, done.error());
 }
 
 const char* nameOf(RunState state) {
@@ -127,7 +136,7 @@ Response Page::rungs(const Request& request) const {
 Response Page::names() const {
   json titles = json::array();
   for (uint32_t row = 0; row < program_.rows().size(); ++row) titles.push_back(program_.titleOf(row));
-  return jsonOf({{"names", namesOf(program_.tables())}, {"titles", std::move(titles)}});
+  return jsonOf({{"names", namesOf(program_)}, {"titles", std::move(titles)}});
 }
 
 // A picture has the power of the rows and the values of the names that are asked for, all of one scan.
@@ -167,6 +176,7 @@ Response Page::picture(const Request& request) {
                  {"first", now->firstScan},
                  {"last", now->lastScan},
                  {"event", now->lastEvent},
+                 {"trigger", now->trigger},
                  {"messages", std::move(messages)},
                  {"forces", std::move(forces)},
                  {"rows", std::move(rows)},
@@ -192,10 +202,34 @@ Response Page::why(const Request& request) {
 }
 
 Response Page::trace(const Request& request) {
-  const Result<ScanTrace> trace =
-      source_.trace(wordsOf(request, kMostTraced), std::min(numberOf(request, "scans"), kMostScans));
+  const Result<ScanTrace> trace = source_.trace(
+      wordsOf(request, kMostTraced), std::min(numberOf(request, "scans"), kMostScans), numberOf(request, "last"));
   if (!trace.ok()) return textOf(409, trace.error());
   return jsonOf({{"first", trace.value().firstScan}, {"values", trace.value().values}});
+}
+
+// Rungs are [number, runs, share of all operations, colour].
+Response Page::shares(const Request& request) {
+  const Result<Shares> shares = source_.shares(std::clamp<uint64_t>(numberOf(request, "scans"), 1, kMostShares));
+  if (!shares.ok()) return textOf(409, shares.error());
+  uint64_t all = 0, most = 0;
+  for (const RungShare& one : shares.value().rungs) {
+    all += one.operations;
+    most = std::max(most, one.operations);
+  }
+  const auto shareOf = [&](uint64_t operations) {
+    return all == 0 ? 0 : static_cast<double>(operations) / static_cast<double>(all);
+  };
+  json rungs = json::array();
+  for (const RungShare& one : shares.value().rungs) {
+    const double share = shareOf(one.operations);
+    rungs.push_back({one.rung, one.runs, share, view::heatStep({.heat = share}, shareOf(most))});
+  }
+  return jsonOf({{"first", shares.value().firstScan},
+                 {"last", shares.value().lastScan},
+                 {"steps", view::kHeatSteps},
+                 {"most", shareOf(most)},
+                 {"rungs", std::move(rungs)}});
 }
 
 Response Page::order(const Request& request) {
@@ -211,16 +245,18 @@ Response Page::order(const Request& request) {
       {"set", Order::Kind::Set},         {"force", Order::Kind::Force},
       {"unforce", Order::Kind::Unforce}, {"statement", Order::Kind::Statement}};
   const std::string what = word("do");
+  if (what == "trigger") return doneOf(source_.setTrigger(word("name")));
+  const bool acknowledges = what == "acknowledge";
   const auto kind = std::ranges::find(kKinds, what, &std::pair<std::string_view, Order::Kind>::first);
-  if (kind == std::end(kKinds)) return textOf(400, fmt::format("no order is called '{}'", what));
+  if (kind == std::end(kKinds) && !acknowledges) return textOf(400, fmt::format("no order is called '{}'", what));
+  const bool writes = acknowledges || kind->second >= Order::Kind::Set;
+  if (writes && !asked.value("writing", false)) return textOf(403, "writing is switched off on this page");
+  if (const std::string why = source_.mayWrite(); writes && !why.empty()) return textOf(403, why);
+  if (acknowledges) return doneOf(source_.acknowledge());
   Order order{kind->second, 0, word("name"), word("value")};
   if (const auto scans = asked.find("scans"); scans != asked.end() && scans->is_number_integer())
     order.scans = scans->get<int64_t>();
-  const bool writes = order.kind >= Order::Kind::Set;
-  if (writes && !asked.value("writing", false)) return textOf(403, "writing is switched off on this page");
-  if (const std::string why = source_.mayWrite(); writes && !why.empty()) return textOf(403, why);
-  const Result<std::string> done = source_.execute(order);
-  return done.ok() ? jsonOf({{"done", done.value()}}) : textOf(409, done.error());
+  return doneOf(source_.execute(order));
 }
 
 Response Page::respond(const Request& request, const std::function<std::string()>& newLink) {
@@ -235,9 +271,8 @@ Response Page::respond(const Request& request, const std::function<std::string()
   if (request.path == "/api/picture") return picture(request);
   if (request.path == "/api/events") return events(request);
   if (request.path == "/api/trace") return trace(request);
-  if (request.path == "/api/why") {
-    return why(request);
-  }
+  if (request.path == "/api/shares") return shares(request);
+  if (request.path == "/api/why") return why(request);
   if (request.path == "/style.css") return {200, "text/css", styleSheet(program_.drawing())};
   const std::string_view name = request.path == "/" ? "index.html" : std::string_view(request.path).substr(1);
   const auto file = std::ranges::find(appFiles(), name, &text::EmbeddedFile::name);

@@ -25,6 +25,7 @@ private:
   Response events(const Request& request);
   Response why(const Request& request);
   Response trace(const Request& request);
+  Response shares(const Request& request);
   Response order(const Request& request);
 
   const ShownProgram& program_;

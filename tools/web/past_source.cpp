@@ -11,6 +11,7 @@ namespace rung::web {
 namespace {
 
 constexpr uint64_t kMostRead = 200'000; // parts that are played at the start, to find messages
+constexpr size_t kMostHits = 200;       // of a condition that is looked for
 
 } // namespace
 
@@ -39,6 +40,19 @@ void PastSource::readEvents() {
     for (const rung_message& message : past_.sent()) nc_->accept(past_.instance(), message);
     compareMessages(past_.instance(), nc_->control(), past_.part());
     marks(past_.part());
+  }
+  (void)past_.goTo(here);
+}
+
+// Where it begins to hold, from the beginning of the recording to its end.
+void PastSource::searchPast(replay::Condition& condition, const std::string& text) {
+  const uint64_t here = past_.part();
+  const auto find = [this](std::string_view name) { return locate(name); };
+  std::string problem;
+  std::optional<uint64_t> found = past_.firstPart();
+  for (size_t hits = 0; found && hits < kMostHits; ++hits) {
+    found = replay::findNext(past_, condition, find, *found, lastScan(), problem);
+    if (found) log("trigger", text, *found, nowUs());
   }
   (void)past_.goTo(here);
 }
@@ -118,6 +132,7 @@ void PastSource::fill(Picture& picture, const std::set<std::string>& names) {
   for (const std::string& name : names)
     if (std::string value = valueOf(name); !value.empty()) picture.values.emplace(name, std::move(value));
   picture.messages = messagesOf(past_.instance(), nc_->control());
+  picture.forces = forcedCells(places_);
   picture.firstScan = firstScan();
   picture.lastScan = past_.contents().parts;
 }

@@ -24,6 +24,12 @@ private:
   int64_t nowUs() const override { return past_.instance().nowUs(); }
   uint64_t shownScan() const override { return past_.part(); }
   uint64_t firstScan() const override { return std::min(past_.firstPart() + 1, past_.contents().parts); }
+  uint64_t lastScan() const override { return past_.contents().parts; }
+  const runtime::Instance& instance() const override { return past_.instance(); }
+  const sim::SimulatedNc& nc() const override { return *nc_; }
+  replay::FlowEngine& flowEngine() override { return past_.flowEngine(); }
+  const replay::Flow* shownFlow() override { return past_.flow(); }
+  void searchPast(replay::Condition& condition, const std::string& text) override;
   Result<std::string> seek(uint64_t part) override;
   std::string valueOf(const std::string& name) const override;
   Result<std::string> carryOut(const Order& order) override;

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <memory>
-#include <utility>
 
 #include "ir/interp/interp.h"
 #include "tools/report/place_names.h"
@@ -59,7 +58,7 @@ void observeForces(scenario::Session& session, replay::FlowEngine& engine) {
 SessionSource::SessionSource(scenario::Session& session, replay::SessionPast& past, const ShownProgram& program,
                              replay::FlowEngine& engine)
     : session_(session), past_(past), engine_(engine), states_(engine, program),
-      places_(program, session.instance(), session.nc(), states_) {
+      places_(program, session.instance(), session.nc(), states_), scan_(session.scans()), last_(scan_) {
   keepMoment();
 }
 
@@ -85,21 +84,22 @@ void SessionSource::oneScan() {
   if (!isNew) return;
   if (!problem.empty()) logHere("fault", problem);
   compareMessages(session_.instance(), session_.nc().control(), scan_);
-  if (session_.instance().faulted() && !std::exchange(faulted_, true))
-    logHere("fault", session_.instance().faultText());
+  checkTrigger();
+  const bool faulted = session_.instance().faulted();
+  if (faulted && !faulted_) logHere("fault", session_.instance().faultText());
+  faulted_ = faulted;
   if (moments_.empty() || session_.nowUs() - moments_.back().us >= kMomentEveryUs) keepMoment();
 }
 
-// A program that has stopped within a scan cannot be continued: then there is no moment.
+// The oldest moment makes room for a new one. A program that has stopped within a scan cannot be continued: then there
+// is no new one.
 void SessionSource::keepMoment() {
-  Moment moment{scan_, session_.nowUs(), done_.size(), {}};
-  if (moments_.size() == kMostMoments) {
-    moment.name = std::move(moments_.front().name);
-    moments_.pop_front();
-  } else {
-    moment.name = fmt::format("web-{}", moments_.size());
-  }
-  if (statement("snapshot " + moment.name).empty()) moments_.push_back(std::move(moment));
+  const bool full = moments_.size() == kMostMoments;
+  Moment moment{scan_, session_.nowUs(), done_.size(),
+                full ? moments_.front().name : fmt::format("web-{}", moments_.size())};
+  if (!statement("snapshot " + moment.name).empty()) return;
+  if (full) moments_.pop_front();
+  moments_.push_back(std::move(moment));
 }
 
 // Back to a moment before the scan, and forwards again with what was done meanwhile, so that its flow is seen again.
@@ -110,6 +110,7 @@ Result<std::string> SessionSource::seek(uint64_t scan) {
     const auto after = std::ranges::lower_bound(moments_, scan, {}, &Moment::scan);
     const Moment& from = after == moments_.begin() ? *after : *std::prev(after);
     if (from.scan > scan_ || scan < scan_) {
+      past_.setRepeats(true);
       if (const std::string problem = statement("restore " + from.name); !problem.empty()) return failure(problem);
       scan_ = from.scan;
       nextDone_ = from.statements;
@@ -120,10 +121,11 @@ Result<std::string> SessionSource::seek(uint64_t scan) {
   return fmt::format("scan {}", scan);
 }
 
-// What was executed before the next scan.
+// What was executed before the next scan. What follows after the newest one has not been yet.
 void SessionSource::repeat() {
   for (; nextDone_ < done_.size() && done_[nextDone_].scan == scan_; ++nextDone_)
     (void)statement(done_[nextDone_].line);
+  if (scan_ == last_) past_.setRepeats(false);
 }
 
 std::vector<ForcedCell> SessionSource::forces() {
@@ -199,7 +201,7 @@ Result<std::string> SessionSource::carryOut(const Order& order) {
 }
 
 Result<Why> SessionSource::explain(const std::string& name) {
-  Result<std::string> text = past_.why(name);
+  Result<std::string> text = past_.why(name, last_ - scan_);
   if (!text.ok()) return text.failure();
   return Why{std::move(text).value(), {}};
 }

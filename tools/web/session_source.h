@@ -44,6 +44,11 @@ private:
   int64_t nowUs() const override { return session_.nowUs(); }
   uint64_t shownScan() const override { return scan_; }
   uint64_t firstScan() const override { return moments_.empty() ? scan_ : std::min(moments_.front().scan + 1, last_); }
+  uint64_t lastScan() const override { return last_; }
+  const runtime::Instance& instance() const override { return session_.instance(); }
+  const sim::SimulatedNc& nc() const override { return session_.nc(); }
+  replay::FlowEngine& flowEngine() override { return engine_; }
+  const replay::Flow* shownFlow() override { return &engine_.flow(); }
   Result<std::string> seek(uint64_t scan) override;
   std::string valueOf(const std::string& name) const override;
   Result<std::string> carryOut(const Order& order) override;
@@ -69,7 +74,7 @@ private:
   std::deque<Moment> moments_; // oldest first
   std::vector<Done> done_;     // oldest first
   size_t nextDone_ = 0;        // of done_: the first that has not been executed at this scan
-  bool faulted_ = false;
+  bool faulted_ = false;       // at the newest scan
 };
 
 } // namespace rung::web

@@ -2,7 +2,6 @@
 #include "tools/web/shown_program.h"
 
 #include <algorithm>
-#include <numeric>
 
 #include "ir/support/put.h"
 #include "tools/view/svg.h"
@@ -22,6 +21,19 @@ constexpr int kHeading = 60;
 constexpr int kSection = 46;
 constexpr int kValueSpace = 88;  // pixels beside the operands of boxes
 constexpr int kNarrowRail = 352; // on a phone
+
+// What charts draw for a language of instructions: the value of a register that an earlier rung has set, the opposite
+// of the power, and the exclusive or.
+constexpr std::string_view kExclusiveMark = "=1";
+constexpr std::string_view kResultRegister = "RLO";
+constexpr std::string_view kStackRegister = "STACK";
+bool isRegister(const Cell& cell) {
+  const std::string& name = cell.operand.name;
+  const bool drawn = cell.kind == Cell::Kind::Contact || cell.kind == Cell::Kind::Coil;
+  return drawn && cell.operand.link.to != view::Link::To::Name && cell.mark.empty() &&
+         (name == kResultRegister || name == kStackRegister);
+}
+bool isComplement(const Cell& cell) { return cell.kind == Cell::Kind::Contact && cell.mark == "NOT"; }
 
 int linesOf(std::string_view text) { return 1 + static_cast<int>(std::ranges::count(text, '\n')); }
 
@@ -78,13 +90,15 @@ void ShownProgram::addRow(Row row) {
 
 ShownProgram::Path ShownProgram::pathOf(const view::Sheet& sheet) {
   Path path;
-  path.order.resize(sheet.cells.size());
-  std::iota(path.order.begin(), path.order.end(), 0u);
-  std::ranges::stable_sort(path.order, {}, [&](uint32_t cell) { return sheet.cells[cell].column; });
   path.from.resize(sheet.cells.size());
-  for (const view::Row& row : sheet.rows)
-    for (size_t i = 1; i < row.stops.size(); ++i)
-      if (row.stops[i].joined) path.from[row.stops[i].cell].push_back(row.stops[i - 1].cell);
+  path.to.resize(sheet.cells.size());
+  for (const view::Row& row : sheet.rows) {
+    for (size_t i = 1; i < row.stops.size(); ++i) {
+      if (!row.stops[i].joined) continue;
+      path.from[row.stops[i].cell].push_back(row.stops[i - 1].cell);
+      path.to[row.stops[i - 1].cell].push_back(row.stops[i].cell);
+    }
+  }
   return path;
 }
 
@@ -96,6 +110,7 @@ void ShownProgram::addFigure(uint32_t index) {
   const int comments = static_cast<int>(figure.comments.size()) * kLine;
   const int texts = kCaption + comments + kAfter;
   const uint32_t first = elements_;
+  const auto row = static_cast<uint32_t>(rows_.size());
   addRow({.kind = Row::Kind::Rung,
           .height = texts + picture.height,
           .number = figure.number,
@@ -105,7 +120,8 @@ void ShownProgram::addFigure(uint32_t index) {
   narrow_.back() = texts + pictureOf(figure, true).height;
   for (uint32_t i = 0; i < figure.sheet.cells.size(); ++i) {
     const view::Place& place = figure.sheet.cells[i].place;
-    if (place.line > 0) byPlace_.emplace(Key{drawing_.files[place.file].path, place.line, place.column}, first + i);
+    if (place.line == 0 || isRegister(figure.sheet.cells[i])) continue;
+    byPlace_.emplace(Key{row, place.line, place.column}, first + i);
   }
 }
 
@@ -163,13 +179,34 @@ std::string ShownProgram::drawingHtml(const Row& row, bool narrow) const {
   return out + "</svg>";
 }
 
-std::optional<uint32_t> ShownProgram::elementAt(std::string_view file, uint32_t line, uint32_t column) const {
-  const std::string path(file);
-  if (const auto at = byPlace_.find(Key{path, line, column}); at != byPlace_.end()) return at->second;
-  if (column != 0) return std::nullopt;
-  const auto at = byPlace_.lower_bound(Key{path, line, 0});
-  const auto end = byPlace_.lower_bound(Key{path, line + 1, 0});
-  return at != end && std::next(at) == end ? std::optional(at->second) : std::nullopt;
+std::vector<uint32_t> ShownProgram::elementsAt(uint32_t row, uint32_t line, uint32_t column) const {
+  std::vector<uint32_t> elements;
+  for (auto [at, end] = byPlace_.equal_range(Key{row, line, column}); at != end; ++at) elements.push_back(at->second);
+  if (column != 0 || !elements.empty()) return elements;
+  const auto at = byPlace_.lower_bound(Key{row, line, 0});
+  const auto end = byPlace_.lower_bound(Key{row, line + 1, 0});
+  if (at != end && std::next(at) == end) elements.push_back(at->second);
+  return elements;
+}
+
+const Cell& ShownProgram::cellOf(uint32_t row, uint32_t element) const {
+  return drawing_.figures[rows_[row].index].sheet.cells[element - rows_[row].firstElement];
+}
+
+std::optional<uint32_t> ShownProgram::railOf(uint32_t row) const {
+  const Row& one = rows_[row];
+  const bool sheet = one.kind == Row::Kind::Rung && chartOf(one) == nullptr && one.elements > 0;
+  return sheet ? std::optional(one.firstElement) : std::nullopt;
+}
+
+std::vector<uint32_t> ShownProgram::poweredOf(uint32_t row) const {
+  std::vector<uint32_t> elements;
+  if (!railOf(row)) return elements;
+  const std::vector<Cell>& cells = drawing_.figures[rows_[row].index].sheet.cells;
+  for (uint32_t i = 0; i < cells.size(); ++i)
+    if (cells[i].kind == Cell::Kind::Coil || cells[i].kind == Cell::Kind::Box)
+      elements.push_back(rows_[row].firstElement + i);
+  return elements;
 }
 
 std::optional<uint32_t> ShownProgram::rowOf(uint32_t rung) const {
@@ -195,50 +232,125 @@ std::string ShownProgram::html(uint32_t row, bool narrow) const {
   return headingHtml(one.kind == Row::Kind::Section ? 3 : 2, block);
 }
 
-namespace {
+// The power in one sheet, from the states of its elements.
+class ShownProgram::Power {
+public:
+  Power(const view::Sheet& sheet, const Path& path, std::span<const uint8_t> states)
+      : sheet_(sheet), path_(path), states_(states), after_(states.size()) {}
 
-bool on(uint8_t state) { return (state & kOn) != 0; }
-
-// Whether there is power after the cell.
-bool passes(const Cell& cell, bool before, uint8_t state) {
-  switch (cell.kind) {
-  case Cell::Kind::Contact: return before && on(state);
-  case Cell::Kind::Box:
-    if ((state & kResultKnown) == 0) return before;
-    return (state & kResult) != 0 && (before || (state & kConducts) == 0);
-  case Cell::Kind::Rail:
-  case Cell::Kind::Joint:
-  case Cell::Kind::Coil: break;
+  // A character for each cell, see ShownProgram::flow.
+  std::string run() {
+    std::string text(states_.size(), '-');
+    for (uint32_t cell = 0; cell < text.size(); ++cell)
+      if (const std::optional<bool> isOn = on(cell))
+        text[cell] = static_cast<char>('0' + (*isOn ? 1 : 0) + (after(cell) ? 2 : 0));
+    return text;
   }
-  return before;
-}
 
-} // namespace
+private:
+  const Cell& at(uint32_t cell) const { return sheet_.cells[cell]; }
+  bool isOn(uint32_t cell) const { return (states_[cell] & kOn) != 0; }
+
+  std::optional<bool> state(uint32_t cell) const {
+    return (states_[cell] & (kEvaluated | kConstant)) != 0 ? std::optional(isOn(cell)) : std::nullopt;
+  }
+
+  // Whether there is power at the left of the cell, and at its right.
+  bool before(uint32_t cell) {
+    return std::ranges::any_of(path_.from[cell], [&](uint32_t from) { return after(from); });
+  }
+  bool after(uint32_t cell) {
+    if (!after_[cell]) after_[cell] = passes(cell);
+    return *after_[cell];
+  }
+
+  bool passes(uint32_t cell) {
+    switch (at(cell).kind) {
+    case Cell::Kind::Rail: return true;
+    case Cell::Kind::Joint:
+    case Cell::Kind::Coil: return before(cell);
+    case Cell::Kind::Box: return leavesBox(cell);
+    case Cell::Kind::Contact: break;
+    }
+    if (isComplement(at(cell))) return !before(cell);
+    return before(cell) && on(cell).value_or(false);
+  }
+
+  bool leavesBox(uint32_t cell) {
+    const uint8_t state = states_[cell];
+    if (at(cell).mark == kExclusiveMark) return exclusive(cell);
+    if ((state & kResultKnown) == 0) return before(cell);
+    return (state & kResult) != 0 && ((state & kConducts) == 0 || before(cell));
+  }
+
+  // Of the two inputs, or of one and the bit that it reads.
+  bool exclusive(uint32_t cell) {
+    const std::vector<uint32_t>& from = path_.from[cell];
+    const bool first = !from.empty() && after(from.front());
+    return first != (from.size() > 1 ? after(from.back()) : isOn(cell));
+  }
+
+  // Whether the cell is on; nothing: it was not evaluated.
+  std::optional<bool> on(uint32_t cell) {
+    const Cell& one = at(cell);
+    const bool follows = one.kind == Cell::Kind::Coil && isRegister(one);
+    if (one.kind == Cell::Kind::Rail || one.kind == Cell::Kind::Joint || follows) return before(cell);
+    if (isComplement(one)) return !before(cell);
+    if (isRegister(one)) return stored(cell);
+    if (one.mark == kExclusiveMark) return exclusive(cell);
+    return (states_[cell] & kWired) != 0 ? std::optional(before(cell)) : state(cell);
+  }
+
+  // The value of a register at its contact: what an output before it has stored, else what follows needs.
+  std::optional<bool> stored(uint32_t cell) {
+    for (uint32_t earlier = cell; earlier-- > 0;) {
+      const Cell& one = at(earlier);
+      if (one.kind != Cell::Kind::Coil && one.kind != Cell::Kind::Box) continue;
+      if (isRegister(one) && one.operand.name == at(cell).operand.name) return before(earlier);
+      // Every output that depends on the result has got it.
+      const bool got = !isRegister(one) && (states_[earlier] & kWired) == 0;
+      if (got && at(cell).operand.name == kResultRegister) return state(earlier);
+    }
+    return wanted(cell);
+  }
+
+  // The power after a cell, as far as what it leads to says.
+  std::optional<bool> wanted(uint32_t cell) const {
+    for (const uint32_t next : path_.to[cell]) {
+      const std::optional<bool> into = wantedInto(next);
+      if (into && (!*into || path_.from[next].size() == 1)) return into;
+    }
+    return std::nullopt;
+  }
+
+  std::optional<bool> wantedInto(uint32_t cell) const {
+    switch (at(cell).kind) {
+    case Cell::Kind::Coil:
+    case Cell::Kind::Box: return at(cell).mark == kExclusiveMark ? std::nullopt : state(cell);
+    case Cell::Kind::Joint: return wanted(cell);
+    case Cell::Kind::Rail: return std::nullopt;
+    case Cell::Kind::Contact: break;
+    }
+    if (!isComplement(at(cell))) return state(cell).value_or(false) ? wanted(cell) : std::nullopt;
+    const std::optional<bool> out = wanted(cell);
+    return out ? std::optional(!*out) : std::nullopt;
+  }
+
+  const view::Sheet& sheet_;
+  const Path& path_;
+  const std::span<const uint8_t> states_;
+  std::vector<std::optional<bool>> after_; // by cell, as far as it has been found
+};
 
 std::string ShownProgram::flow(uint32_t row, std::span<const uint8_t> states) const {
   const Row& one = rows_[row];
   if (states.empty()) return {};
   const std::span<const uint8_t> own = states.subspan(one.firstElement, one.elements);
   if (std::ranges::none_of(own, [](uint8_t state) { return (state & kEvaluated) != 0; })) return {};
+  if (chartOf(one) == nullptr) return Power(drawing_.figures[one.index].sheet, paths_[one.index], own).run();
   std::string text(own.size(), '-');
-  if (chartOf(one) != nullptr) {
-    for (size_t i = 0; i < own.size(); ++i)
-      if ((own[i] & kEvaluated) != 0) text[i] = on(own[i]) ? '1' : '0';
-    return text;
-  }
-  const view::Sheet& sheet = drawing_.figures[one.index].sheet;
-  const Path& path = paths_[one.index];
-  std::vector<bool> power(own.size(), false);
-  power[0] = true; // the left rail
-  for (const uint32_t cell : path.order) {
-    const Cell& here = sheet.cells[cell];
-    const bool wire = here.kind == Cell::Kind::Rail || here.kind == Cell::Kind::Joint;
-    bool before = here.kind == Cell::Kind::Rail;
-    for (const uint32_t from : path.from[cell]) before = before || power[from];
-    power[cell] = passes(here, before, own[cell]);
-    if (!wire && (own[cell] & (kEvaluated | kConstant)) == 0) continue;
-    text[cell] = static_cast<char>('0' + (wire ? before : on(own[cell])) + (power[cell] ? 2 : 0));
-  }
+  for (size_t i = 0; i < own.size(); ++i)
+    if ((own[i] & kEvaluated) != 0) text[i] = (own[i] & kOn) != 0 ? '1' : '0';
   return text;
 }
 
@@ -252,6 +364,19 @@ std::vector<ShownProgram::Contact> ShownProgram::contacts() const {
         found.push_back({row.firstElement + i, cells[i].operand.name, cells[i].mark == "/"});
   }
   return found;
+}
+
+std::map<uint32_t, std::set<std::string>> ShownProgram::shapes() const {
+  std::map<uint32_t, std::set<std::string>> shapes;
+  for (const view::Figure& figure : drawing_.figures) {
+    for (const Cell& cell : figure.sheet.cells) {
+      if (cell.operand.link.to != view::Link::To::Name) continue;
+      const std::string mark = cell.mark.empty() ? " " : cell.mark;
+      if (cell.kind == Cell::Kind::Contact) shapes[cell.operand.link.id].insert("|" + mark + "|");
+      if (cell.kind == Cell::Kind::Coil) shapes[cell.operand.link.id].insert("(" + mark + ")");
+    }
+  }
+  return shapes;
 }
 
 std::vector<ShownProgram::Step> ShownProgram::steps() const {

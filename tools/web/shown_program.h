@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -23,6 +24,7 @@ enum ElementState : uint8_t {
   kResult = 8,    // a box has power at its output, or conducts
   kConducts = 16, // the result of a box, such as a comparison, is like that of a contact
   kConstant = 32, // a contact whose bit never changes
+  kWired = 64,    // the program says nothing of it: a coil or a box has the power of its wire
 };
 
 // What the page shows as a row.
@@ -50,8 +52,14 @@ public:
   // Pixels of the row. `narrow`: drawings are cut to the width of a phone, so that they are higher.
   int heightOf(uint32_t row, bool narrow) const { return narrow ? narrow_[row] : rows_[row].height; }
 
-  // The element at a position of the sources. Column 0: the only one that begins on the line. Nothing: none is shown.
-  std::optional<uint32_t> elementAt(std::string_view file, uint32_t line, uint32_t column) const;
+  // The elements of a row at a position of its file: an instruction may be drawn as several. Column 0: the only one
+  // that begins on the line.
+  std::vector<uint32_t> elementsAt(uint32_t row, uint32_t line, uint32_t column) const;
+  // The cell of an element of a row that has a sheet.
+  const view::Cell& cellOf(uint32_t row, uint32_t element) const;
+  // The left rail of a rung and its coils and boxes, all of them elements. Nothing for a row without a sheet.
+  std::optional<uint32_t> railOf(uint32_t row) const;
+  std::vector<uint32_t> poweredOf(uint32_t row) const;
   // The row of a rung by its number.
   std::optional<uint32_t> rowOf(uint32_t rung) const;
   // "Rung 3: start/stop latch"; "" for other rows.
@@ -75,6 +83,9 @@ public:
   };
   std::vector<Contact> contacts() const;
 
+  // How names are drawn as contacts and coils, by NameRow::id: "| |", "|/|", "( )", "(S)" ...
+  std::map<uint32_t, std::set<std::string>> shapes() const;
+
   // The steps of charts at which units may continue.
   struct Step {
     uint32_t element = 0;
@@ -92,12 +103,13 @@ public:
   std::vector<ShownValue> values(uint32_t row) const;
 
 private:
-  using Key = std::tuple<std::string, uint32_t, uint32_t>; // file, line, column
-  // How power goes through a sheet: the cells from left to right, and for each those that it comes from.
+  using Key = std::tuple<uint32_t, uint32_t, uint32_t>; // row, line, column
+  // How power goes through a sheet: for each cell those that it comes from, by row, and those that it leads to.
   struct Path {
-    std::vector<uint32_t> order;
     std::vector<std::vector<uint32_t>> from;
+    std::vector<std::vector<uint32_t>> to;
   };
+  class Power;
   void addFigure(uint32_t index);
   void addChart(uint32_t index);
   void addRow(Row row);
@@ -112,7 +124,7 @@ private:
   std::vector<Row> rows_;
   std::vector<int> narrow_; // heights on a narrow page, by row
   std::map<uint32_t, uint32_t> rowsByRung_;
-  std::map<Key, uint32_t, std::less<>> byPlace_;
+  std::multimap<Key, uint32_t> byPlace_;
   uint32_t elements_ = 0;
   int rail_ = 0;
 };

@@ -39,6 +39,7 @@ struct Picture {
   uint64_t firstScan = 0; // how far back it can go
   uint64_t lastScan = 0;  // the newest one
   uint64_t lastEvent = 0; // number of the newest entry of the log
+  std::string trigger;    // the condition that is looked for; "": none
 };
 
 // What a page wants done.
@@ -54,7 +55,7 @@ struct Event {
   uint64_t number = 0;
   uint64_t scan = 0;
   int64_t us = 0;
-  std::string kind; // "message", "gone", "fault", "set", "force", "mark"
+  std::string kind; // "message", "gone", "acknowledged", "fault", "trigger", "set", "force", "statement", "mark"
   std::string text;
 };
 
@@ -72,10 +73,21 @@ struct Why {
   std::vector<WhyStep> steps; // empty: the text is all
 };
 
-// Values of names scan by scan, up to the scan that is shown.
+// Values of names scan by scan.
 struct ScanTrace {
   uint64_t firstScan = 0;
   std::vector<std::vector<std::string>> values; // by name, then by scan
+};
+
+// How often each rung has run in some scans, and what share of all work it was.
+struct RungShare {
+  uint32_t rung = 0; // number, as drawn
+  uint64_t runs = 0;
+  uint64_t operations = 0; // of all these runs, as if no branch within a rung were left out
+};
+struct Shares {
+  uint64_t firstScan = 0, lastScan = 0;
+  std::vector<RungShare> rungs; // all that can run, in the order of the program
 };
 
 // Any thread may call these.
@@ -93,8 +105,16 @@ public:
   virtual std::vector<Event> events(uint64_t after) = 0;
   // Why the value of a name is what it is, at the picture that is shown.
   virtual Result<Why> why(const std::string& name) = 0;
-  // The values of these names in the last `scans` scans; a name that does not exist has the value "".
-  virtual Result<ScanTrace> trace(const std::vector<std::string>& names, uint64_t scans) = 0;
+  // The values of these names in the last `scans` scans up to `last`, or up to the one that is shown if `last` is 0; a
+  // name that does not exist has the value "".
+  virtual Result<ScanTrace> trace(const std::vector<std::string>& names, uint64_t scans, uint64_t last) = 0;
+  // Of the last `scans` scans up to the one that is shown.
+  virtual Result<Shares> shares(uint64_t scans) = 0;
+  // Each scan in which the condition (docs/replay.md) begins to hold gets an entry in the log, from now on, or of a
+  // recording everywhere; "": no condition. Returns what is looked for, in words.
+  virtual Result<std::string> setTrigger(const std::string& condition) = 0;
+  // Notes in the log that the messages that are shown have been seen.
+  virtual Result<std::string> acknowledge() = 0;
   // Whether there is a newest scan that becomes older: false for what has ended.
   virtual bool isLive() const = 0;
   // Whether pages may write: "" or why not.

@@ -273,7 +273,7 @@ TEST(HostRecording, SaysThatAReplacementWasPreparedBefore) {
   const TemporaryFolder folder;
   std::string text = RecordedHost::kProgram;
   text.replace(text.find("PRM 40"), 6, "PRM 56");
-  HostProgram first(RecordedHost::kProgram), second(text);
+  HostProgram first(RecordedHost::kProgram), second(text.c_str());
   const rung::Image image = rung::Image::adopt(first.engine->program(), first.engine->context());
   const rung::Image other = rung::Image::adopt(second.engine->program(), second.engine->context());
   rung::Instance instance(image);

@@ -10,7 +10,7 @@ export class Names {
     if (this.loading) return this.loading;
     this.loading = get('names').then(all => {
       this.titles = all.titles;
-      this.all = all.names.map(([id, name, address, comment, kind, uses]) => ({id, name, address, comment, kind,
+      this.all = all.names.map(([id, name, address, comment, kind, uses, shapes]) => ({id, name, address, comment, kind, shapes,
         reads: uses.filter(rung => rung > 0), writes: uses.filter(rung => rung < 0).map(rung => -rung),
         key: plain(`${name} ${address} ${comment}`)}));
       this.byId = new Map(this.all.map(one => [one.id, one]));

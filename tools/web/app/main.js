@@ -4,7 +4,9 @@ import {isNarrow, Pane} from './pane.js';
 import {Tree} from './tree.js';
 import {Find, Names} from './find.js';
 import {Trace} from './trace.js';
-import {Detail, History, make, Terminals, timeText, Watch, Writer} from './panels.js';
+import {Profile} from './profile.js';
+import {History, timeText} from './history.js';
+import {Detail, make, Terminals, Watch, Writer} from './panels.js';
 
 const by = id => document.getElementById(id);
 const kStates = {running: 'Running', paused: 'Paused', past: 'Past', fault: 'Fault', lost: 'No connection'};
@@ -109,7 +111,7 @@ async function start() {
   const detail = new Detail(by('detail'), names, writer, {go: goRung, goRow, seek, causes: map => pane.setCauses(map),
     watch: name => { watch.add(name); tell(`${name} is watched`); }});
   const terminals = new Terminals(by('io'), names, goRung, choose);
-  const history = new History(by('log'), seek);
+  const history = new History(by('log'), writer, seek);
   new Find(by('what'), by('found'), names, index, found => {
     if (found.name) {
       choose({dataset: {id: found.name.id, name: found.name.name}});
@@ -122,7 +124,9 @@ async function start() {
     }
   });
   watch.fill();
-  new Trace(by('watch'), watch, seek, tell);
+  const trace = new Trace(by('watch'), watch, seek, tell);
+  history.onnews = news => trace.news(news);
+  new Profile(by('legend'), by('profile'), pane, goRung, tell);
 
   // What the next pictures must have.
   function follow() {
@@ -152,14 +156,18 @@ async function start() {
     slider.setAttribute('aria-valuetext', `scan ${next.scan}, ${timeText(next.us)}`);
     by('forced').hidden = !next.forces.length;
     by('forced').textContent = `${next.forces.length} forced`;
+    by('profile').hidden = tab !== 'ladder';
     by('forced').title = next.forces.map(cell => `${cell.name} = ${cell.value}`).join('\n');
     const newest = next.fault || next.messages.map(([number, text]) => `${number} ${text}`).join('   ·   ');
     if (by('messages').textContent !== (newest || 'No messages')) by('messages').textContent = newest || 'No messages';
     by('messages').classList.toggle('any', Boolean(newest));
+    by('messages').title = next.messages.map(([number, text]) => `${number} ${text}`).join('\n') || 'Messages that the operator sees';
     pane.draw(next);
     watch.draw(next);
     terminals.draw(next);
     detail.draw(next);
+    trace.draw({...next, live: index.live});
+    history.draw();
     history.update(next.event);
     drawMarks();
     document.body.dataset.scan = next.scan;

@@ -26,6 +26,7 @@ export class Pane {
     this.texts = {};
     this.forcedIds = new Set();
     this.causes = new Map();
+    this.shares = new Map();
     this.focusRow = -1;
     this.onrange = () => {};
     pane.addEventListener('scroll', () => this.soon(), {passive: true});
@@ -139,6 +140,25 @@ export class Pane {
     this.paint(row);
     this.markForced(element);
     this.markCauses(row, element);
+    this.markShare(element);
+  }
+
+  // By rung: the colour, from 1, and a text.
+  setShares(shares) {
+    this.shares = shares;
+    for (const element of this.shown.values()) this.markShare(element);
+  }
+
+  markShare(element) {
+    const share = this.shares.get(Number(element.dataset.rung));
+    element.querySelector('.share')?.remove();
+    delete element.dataset.heat;
+    if (!share) return;
+    element.dataset.heat = share.step;
+    const text = document.createElement('em');
+    text.className = 'share';
+    text.textContent = share.text;
+    element.querySelector('.cap').append(text);
   }
 
   // The elements that decided, by row, as *why* has found them.
@@ -219,8 +239,10 @@ export class Pane {
       const state = on === '' || on === undefined ? 'not evaluated' :
         coil ? (on === '1' ? 'on' : 'off') : box ? (on === '1' ? 'has power' : 'no power') :
         on === '1' ? 'conducts' : 'does not conduct';
-      words.push(`${one.dataset.name} ${state}${one.classList.contains('forced') ? ', forced' : ''}`);
+      words.push(`${one.dataset.name || one.dataset.mark} ${state}${one.classList.contains('forced') ? ', forced' : ''}`);
     }
+    const share = this.shares.get(Number(element.dataset.rung));
+    if (share) words.push(share.text);
     element.setAttribute('aria-label', `${element.rungName}. ${words.join('; ')}`);
   }
 

@@ -1,4 +1,4 @@
-// The other views: watched names, inputs and outputs, history, and the name that is selected.
+// Lists of names: those that are watched, inputs and outputs; and the name that is selected.
 import {get, post} from './link.js';
 
 export function make(tag, name, text) {
@@ -8,7 +8,16 @@ export function make(tag, name, text) {
   return element;
 }
 
-function button(text, act, title) {
+// A link that does something in the page.
+export function link(text, href, act, title) {
+  const one = make('a', '', text);
+  one.href = href;
+  if (title) one.title = title;
+  one.onclick = event => { event.preventDefault(); act(); };
+  return one;
+}
+
+export function button(text, act, title) {
   const element = make('button', '', text);
   element.type = 'button';
   if (title) element.title = title;
@@ -17,17 +26,17 @@ function button(text, act, title) {
 }
 
 // Rungs as links that lead to them.
-function rungLinks(rungs, go, most = 40) {
+export function rungLinks(rungs, go, most = 40) {
   const span = make('span', 'rungs');
-  rungs.slice(0, most).forEach((rung, i) => {
-    if (i) span.append(', ');
-    const link = make('a', '', rung);
-    link.href = '#r' + rung;
-    link.onclick = event => { event.preventDefault(); go(rung); };
-    span.append(link);
-  });
+  rungs.slice(0, most).forEach((rung, i) => span.append(i ? ', ' : '', link(rung, '#r' + rung, () => go(rung))));
   if (rungs.length > most) span.append(` and ${rungs.length - most} more`);
   return span;
+}
+
+// Who writes the name, and who reads it.
+function usesOf(known, go, most) {
+  const of = (rungs, machine) => rungs.length ? rungLinks(rungs, go, most) : make('span', 'soft', machine ? 'machine' : 'no rung');
+  return {writes: of(known.writes, known.kind === 'i'), reads: of(known.reads, known.kind === 'o')};
 }
 
 // Orders that write. They are sent only while writing is switched on.
@@ -98,15 +107,13 @@ export class Detail {
       this.value.setAttribute('aria-label', 'Value');
       this.box.append(this.value);
     }
-    const uses = make('dl');
-    const row = (what, rungs, machine) => {
-      uses.append(make('dt', '', what));
+    const uses = make('dl'), {writes, reads} = usesOf(known, this.act.go);
+    for (const [what, rungs] of [['Written in', writes], ['Read in', reads]]) {
       const cell = make('dd');
-      cell.append(rungs.length ? rungLinks(rungs, this.act.go) : make('span', 'soft', machine ? 'machine' : 'no rung'));
-      uses.append(cell);
-    };
-    row('Written in', known.writes, known.kind === 'i');
-    row('Read in', known.reads, known.kind === 'o');
+      cell.append(rungs);
+      uses.append(make('dt', '', what), cell);
+    }
+    if (known.shapes.length) uses.append(make('dt', '', 'Drawn as'), shapesOf(known, 'dd'));
     this.box.append(uses);
     const actions = make('div', 'actions');
     if (this.name) {
@@ -146,15 +153,8 @@ export class Detail {
     for (const [depth, text, scan, row, causes] of steps) {
       const line = make('div', 'step');
       line.style.marginLeft = Math.min(depth, 6) * 10 + 'px';
-      const link = (label, act, title) => {
-        const one = make('a', '', label);
-        one.href = '#why';
-        one.title = title;
-        one.onclick = event => { event.preventDefault(); act(); };
-        return one;
-      };
-      line.append(row === null ? text : link(text, () => this.act.goRow(row), 'Show the rung'), ' since ',
-        link(`scan ${scan}`, () => this.act.seek(scan), 'Go back to this scan'));
+      line.append(row === null ? text : link(text, '#row' + row, () => this.act.goRow(row), 'Show the rung'), ' since ',
+        link(`scan ${scan}`, '#scan' + scan, () => this.act.seek(scan), 'Go back to this scan'));
       if (causes.length) line.append(make('div', 'soft', 'decided by ' + causes.join(', ')));
       this.reason.append(line);
     }
@@ -208,6 +208,16 @@ class NameTable {
   }
 }
 
+// How the program draws the name: what it does while the terminal has no voltage can be seen there.
+const kShapes = {'| |': 'normally open contact', '|/|': 'normally closed contact', '|P|': 'contact of the rising edge',
+  '|N|': 'contact of the falling edge', '( )': 'coil', '(/)': 'inverted coil', '(S)': 'set coil', '(R)': 'reset coil'};
+function shapesOf(known, tag) {
+  const cell = make(tag, 'num shapes', known.shapes.join(', '));
+  cell.title = known.shapes.map(shape => kShapes[shape] ?? shape).join(', ');
+  cell.setAttribute('aria-label', cell.title);
+  return cell;
+}
+
 export class Watch {
   constructor(box, names, writer, go, key) {
     Object.assign(this, {box, names, writer, go, key});
@@ -249,7 +259,10 @@ export class Watch {
       const known = this.names.byName.get(name);
       const row = make('tr'), head = make('th', '', name), value = make('td', 'value'), last = make('td', 'act');
       head.scope = 'row';
-      last.append(button('Remove', () => this.remove(name)));
+      const remove = button('×', () => this.remove(name), `Remove ${name}`);
+      remove.className = 'icon close';
+      remove.setAttribute('aria-label', `Remove ${name}`);
+      last.append(remove);
       if (this.writing) last.prepend(writeControls(name, this.writer));
       row.append(head, make('td', 'addr', known?.address ?? ''), value, make('td', '', known?.comment ?? ''), last);
       this.table.cells.set(name, [value, known?.id]);
@@ -270,7 +283,7 @@ const kIoRow = 31;  // height of a row in pixels, as in app.css
 export class Terminals {
   constructor(box, names, go, choose) {
     Object.assign(this, {box, names, go, choose});
-    this.table = new NameTable(box, ['', 'Address', 'Name', 'Value', 'Comment', 'Written in', 'Read in']);
+    this.table = new NameTable(box, ['', 'Address', 'Name', 'Value', 'Comment', 'Drawn as', 'Written in', 'Read in']);
     const bar = make('div', 'add');
     this.filter = make('input');
     this.filter.type = 'search';
@@ -298,17 +311,14 @@ export class Terminals {
     this.count.textContent = this.list.length === 1 ? '1 name' : `${this.list.length} names`;
     this.table.cells.clear();
     this.table.rows.replaceChildren(...this.list.map(one => {
-      const row = make('tr'), name = make('th'), value = make('td', 'value');
+      const row = make('tr'), name = make('th'), value = make('td', 'value'), uses = usesOf(one, this.go, 6);
       name.scope = 'row';
-      const link = make('a', '', one.name);
-      link.href = '#n' + one.id;
-      link.onclick = event => { event.preventDefault(); this.choose({dataset: {id: one.id, name: one.name}}); };
-      name.append(link);
+      name.append(link(one.name, '#n' + one.id, () => this.choose({dataset: {id: one.id, name: one.name}})));
       const writes = make('td'), reads = make('td');
-      writes.append(one.writes.length ? rungLinks(one.writes, this.go, 6) : make('span', 'soft', one.kind === 'i' ? 'machine' : 'no rung'));
-      reads.append(one.reads.length ? rungLinks(one.reads, this.go, 6) : make('span', 'soft', one.kind === 'o' ? 'machine' : 'no rung'));
+      writes.append(uses.writes);
+      reads.append(uses.reads);
       row.append(make('td', 'soft', one.kind === 'i' ? 'in' : 'out'), make('td', 'addr', one.address), name, value,
-        make('td', '', one.comment), writes, reads);
+        make('td', '', one.comment), shapesOf(one, 'td'), writes, reads);
       this.table.cells.set(one.name, [value, one.id]);
       return row;
     }));
@@ -321,49 +331,4 @@ export class Terminals {
     return this.list.slice(first, first + Math.ceil(this.box.clientHeight / kIoRow) + 8).map(one => one.name);
   }
   draw(picture) { this.table.draw(picture); }
-}
-
-// What happened: messages that came and went, faults, what people did.
-export class History {
-  constructor(box, seek) {
-    Object.assign(this, {box, seek, last: 0, list: []});
-    this.table = make('table');
-    this.table.innerHTML = '<thead><tr><th scope="col">Scan</th><th scope="col">Time</th><th scope="col">What</th><th scope="col"></th></tr></thead>';
-    this.rows = make('tbody');
-    this.table.append(this.rows);
-    this.empty = make('p', 'soft', 'Nothing has happened yet: messages, faults and what is written appear here.');
-    box.append(this.empty, this.table);
-  }
-
-  async update(newest) {
-    if (newest <= this.last || this.busy) return;
-    this.busy = true;
-    try {
-      for (const [number, scan, us, kind, text] of await get('events?after=' + this.last)) {
-        this.last = number;
-        this.list.push({scan, us, kind, text});
-        const row = make('tr', 'k-' + kind), cell = make('td', 'num'), link = make('a', '', scan);
-        link.href = '#scan';
-        link.title = 'Go back to this scan';
-        link.onclick = event => { event.preventDefault(); this.seek(scan); };
-        cell.append(link);
-        row.append(cell, make('td', 'num', timeText(us)), make('td', 'kind', kindText(kind)), make('td', '', text));
-        this.rows.prepend(row);
-      }
-      while (this.rows.children.length > 1000) this.rows.lastChild.remove();
-      this.empty.hidden = this.list.length > 0;
-      this.onchange?.();
-    } catch { /* with the next picture */ }
-    this.busy = false;
-  }
-}
-
-export function kindText(kind) {
-  return {message: 'message', gone: 'message gone', fault: 'fault', set: 'set', force: 'force', statement: 'operator', mark: 'mark'}[kind] ?? kind;
-}
-
-export function timeText(us) {
-  const s = us / 1e6, h = Math.floor(s / 3600), m = Math.floor(s / 60) % 60;
-  const rest = (s % 60).toFixed(3);
-  return h ? `${h}:${String(m).padStart(2, '0')}:${rest.padStart(6, '0')}` : m ? `${m}:${rest.padStart(6, '0')}` : `${rest} s`;
 }

@@ -62,6 +62,7 @@ private:
   void follow(NodeId node);
   void join(int logic);
   bool needsRail(NodeId node) const;
+  bool worksOnLeft(NodeId node) const;
   void combine(int logic, NodeId left, NodeId right);
   void output();
   void alone();
@@ -225,10 +226,24 @@ bool Networks::needsRail(NodeId node) const {
   return std::ranges::any_of(one.parts, [&](NodeId part) { return needsRail(part); });
 }
 
+// Whether it is more than a condition beside others: a NOT or a timer works on all that is at its left.
+bool Networks::worksOnLeft(NodeId node) const {
+  const Node& one = rung_.nodes[node];
+  if (one.kind == NodeKind::Contact) return one.mark == "NOT";
+  if (one.kind == NodeKind::Box)
+    return (program_.source.statements[one.statement].row->effects & kReadsRlo) != 0 || needsRail(node);
+  return std::ranges::any_of(one.parts, [&](NodeId part) { return worksOnLeft(part); });
+}
+
+// What works on all that is at its left comes first in a series, and is the only one of its kind there: the value of
+// another one is stored.
 void Networks::combine(int logic, NodeId left, NodeId right) {
-  if (logic == kAnd && needsRail(right)) {
-    network(combined(NodeKind::Series, right, make({.kind = NodeKind::Coil, .operands = {{.text = "RLO"}}})));
-    right = value("RLO");
+  if (logic == kAnd && worksOnLeft(right)) {
+    if (worksOnLeft(left)) {
+      network(combined(NodeKind::Series, left, make({.kind = NodeKind::Coil, .operands = {{.text = "STACK"}}})));
+      left = value("STACK");
+    }
+    std::swap(left, right);
   }
   if (logic == kXor) {
     const NodeId both = make({.kind = NodeKind::Box,

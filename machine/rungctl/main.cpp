@@ -19,7 +19,7 @@
 #include "machine/compile/compilation.h"
 #include "machine/control/log.h"
 #include "machine/control/place.h"
-#include "machine/rungctl/client.h"
+#include "machine/control/client.h"
 #include "machine/rungctl/log.h"
 #include "machine/rungctl/reload.h"
 #include "machine/rungctl/status.h"
@@ -234,7 +234,7 @@ int serve(Client& client, const Words& words) {
   constexpr double kMsInS = 1000;
   if (words.seconds > 0) request["alive_ms"] = static_cast<unsigned>(words.seconds * kMsInS);
   std::cout << asked(client, request).dump() << std::endl;
-  rungctl::relay(client.connection(), STDIN_FILENO, std::cout, gStop);
+  control::relay(client.connection(), STDIN_FILENO, std::cout, gStop);
   return cli::kOk;
 }
 

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <ostream>
 #include <stdexcept>
@@ -18,6 +19,8 @@
 #include <vector>
 
 #include "machine/control/place.h"
+#include "rtlib/text/bit_word.h"
+#include "rtlib/text/number.h"
 
 namespace rung::control {
 
@@ -149,6 +152,14 @@ json asked(Client& client, const json& request, std::chrono::milliseconds patien
   json answer = client.ask(request, patience);
   if (!answer.value("ok", false)) throw std::runtime_error(answer.value("error", "the host refuses"));
   return answer;
+}
+
+json writtenValue(const std::string& text) {
+  if (const std::optional<bool> bit = text::bitWord(text)) return *bit;
+  const text::WrittenNumber number = text::writtenNumber(text);
+  if (number.form == text::NumberForm::Real && std::isfinite(number.real)) return number.real;
+  if (number.form != text::NumberForm::Whole) return text;
+  return number.negative ? json(static_cast<int64_t>(number.bits())) : json(number.magnitude);
 }
 
 namespace {

@@ -53,6 +53,10 @@ private:
 nlohmann::json asked(Client& client, const nlohmann::json& request,
                      std::chrono::milliseconds patience = Client::kAnswer);
 
+// A value for `set` and `force`, which is written as in scenarios; what JSON cannot represent stays a text, which the
+// host accepts or refuses.
+nlohmann::json writtenValue(const std::string& text);
+
 // Relay of protocol lines between another program and a host.
 
 // Passes lines from `in` to the host and from the host to `out`, until one of them ends or `stop` is not 0. Throws

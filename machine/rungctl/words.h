@@ -30,6 +30,7 @@ struct Words {
   std::string value;
   std::string file;
   std::vector<std::string> files;
+  std::string listen;
   double seconds = 0;
   bool all = false;
   bool follow = false;

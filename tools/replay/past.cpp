@@ -49,14 +49,15 @@ Result<void> Past::useStage(uint32_t number) {
 
 void Past::play(size_t from) {
   base_ = from;
-  again_ = 0;
-  stage().player().setEvents(events().subspan(from));
+  again_ = resumed_ ? takeRepeats(events(), base_) : 0;
+  stage().player().setEvents(events().subspan(base_));
 }
 
 // Of the programs, the one whose state it is.
 bool Past::begin(const StatePoint& point) {
   segment_ = point.segment;
   part_ = point.part;
+  resumed_ = false;
   const uint32_t first = stageNumber_;
   const auto count = static_cast<uint32_t>(recording_.programs.size());
   for (uint32_t i = 0; i < count; ++i) {
@@ -79,15 +80,15 @@ bool Past::resume(const Moment& moment) {
   segment_ = moment.segment;
   part_ = moment.part;
   if (!playState(stage().player(), moment.events)) return false;
-  play(moment.position);
-  if (moment.repeats == 0) return true;
-  again_ = moment.repeats;
   againKind_ = moment.kind;
   againNumber_ = moment.number;
   againEvent_.resize(32);
   runtime::EventWriter writer(againEvent_);
   writer.put(Event::Part, static_cast<uint8_t>(moment.kind), moment.number);
   againEvent_.resize(writer.size());
+  resumed_ = moment.repeats == 0;
+  play(moment.position);
+  if (!resumed_) again_ = moment.repeats;
   return true;
 }
 
@@ -127,12 +128,23 @@ bool Past::playAgain() {
   stage().player().setEvents(againEvent_);
   if (stage().player().play() != Played::Part) return false;
   ++part_;
+  resumed_ = false;
   takeSent();
   if (--again_ == 0) play(base_);
   return true;
 }
 
+// What comes after the events that the player has.
 bool Past::nextSegment() {
+  if (const size_t ends = position(); ends < events().size()) { // the segment has grown
+    play(ends);
+    return true;
+  }
+  if (segment_ + 1 < recording_.segments.size() && recording_.segments[segment_ + 1].continues) {
+    ++segment_;
+    play(0);
+    return true;
+  }
   for (uint32_t next = segment_ + 1; next < recording_.segments.size(); ++next) {
     const auto point = std::ranges::find(contents_.states, next, &StatePoint::segment);
     if (point == contents_.states.end()) continue;
@@ -152,11 +164,12 @@ bool Past::otherProgram() {
 bool Past::next() {
   problem_.clear();
   sent_.clear();
-  if (again_ != 0) return playAgain();
   for (;;) {
+    if (again_ != 0) return playAgain();
     switch (stage().player().play()) {
     case Played::Part:
       ++part_;
+      resumed_ = false;
       noteDifference();
       takeSent();
       return true;
@@ -172,6 +185,21 @@ bool Past::next() {
     case Played::Damaged: problem_ = fmt::format("the recording is damaged after part {}", part_); return false;
     }
   }
+}
+
+void Past::grown() {
+  contents_.grow(recording_);
+  stages_.resize(recording_.programs.size());
+  std::erase_if(keptOrder_, [&](uint64_t part) {
+    const auto moment = kept_.find(part);
+    if (moment->second.segment >= recording_.firstSegment) return false;
+    keptBytes_ -= moment->second.events.size();
+    kept_.erase(moment);
+    return true;
+  });
+  if (segment_ >= recording_.firstSegment) return;
+  reached_ = false;
+  (void)goTo(firstPart());
 }
 
 void Past::compareOutputs(bool compares) {
@@ -242,6 +270,18 @@ std::string Past::goToTime(int64_t us) {
   return problem_;
 }
 
+// The events from a moment on that lead to the present position.
+std::vector<uint8_t> Past::eventsFrom(const Moment& moment) const {
+  std::vector<uint8_t> all;
+  size_t position = moment.position;
+  for (uint32_t i = moment.segment; i <= segment_; ++i, position = 0) {
+    const std::span<const uint8_t> events = std::span(recording_.segments[i].events).subspan(position);
+    if (!recording_.segments[i].continues) all.clear();
+    all.insert(all.end(), events.begin(), events.end());
+  }
+  return all;
+}
+
 const Flow* Past::flow(const FlowEngine::AfterRun& afterRun) {
   const uint64_t here = part_;
   blockBefore_.clear();
@@ -261,11 +301,12 @@ const Flow* Past::flow(const FlowEngine::AfterRun& afterRun) {
       blockBefore_.clear();
       return nullptr;
     }
+    std::vector<uint8_t> joined;
     if (from->segment != segment_) {
-      from->segment = segment_;
+      joined = eventsFrom(*from);
       from->position = 0;
     }
-    flow = stage().flow(*from, recording_.segments[segment_].events, afterRun);
+    flow = stage().flow(*from, joined.empty() ? events() : std::span<const uint8_t>(joined), afterRun);
   } else {
     (void)goTo(here);
   }

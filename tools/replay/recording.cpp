@@ -4,11 +4,10 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <optional>
+#include <span>
 #include <utility>
 
-#include "compiler/embedded_ir.h"
 #include "rtlib/record/events.h"
-#include "rtlib/record/recording_reader.h"
 
 namespace rung::replay {
 namespace {
@@ -16,22 +15,26 @@ namespace {
 using runtime::Event;
 using runtime::EventReader;
 
+} // namespace
+
 class Skimmer {
 public:
-  Skimmer(Contents& to, uint32_t segment, const Segment& of) : to_(to), segment_(segment), reader_(of.events) {}
+  Skimmer(Contents& to, uint32_t segment, std::span<const uint8_t> events)
+      : to_(to), segment_(segment), first_(to.read_), reader_(events.subspan(to.read_)) {}
 
   void run() {
-    while (!reader_.atEnd()) {
-      const size_t at = reader_.position();
+    while (!reader_.atEnd() && !to_.unreadable_) {
+      const size_t at = position();
       const Event event = reader_.takeEvent();
       const bool known = take(event, at);
       if (known && reader_.good()) continue;
       add(Landmark::Kind::Damaged, fmt::format("damaged at byte {} of segment {}", at, segment_ + 1));
-      return;
+      to_.unreadable_ = true;
     }
   }
 
 private:
+  size_t position() const { return first_ + reader_.position(); }
   void add(Landmark::Kind kind, std::string text) { to_.landmarks.push_back({kind, to_.parts, std::move(text)}); }
   void numbers(uint64_t count) {
     for (; count != 0 && reader_.good(); --count) (void)reader_.takeNumber();
@@ -62,9 +65,9 @@ private:
     case Event::Part:
       numbers(2);
       group_.reset();
-      to_.parts += whole_ ? 1 : 0;
+      to_.parts += to_.whole_ ? 1 : 0;
       return true;
-    case Event::Repeat: to_.parts += whole_ ? reader_.takeNumber() : (numbers(1), 0); return true;
+    case Event::Repeat: to_.parts += to_.whole_ ? reader_.takeNumber() : (numbers(1), 0); return true;
     case Event::Clock:
     case Event::Stopped:
     case Event::Within:
@@ -83,7 +86,7 @@ private:
       add(Landmark::Kind::Fault, "the program stopped with a fault");
       return true;
     case Event::Anew:
-      whole_ = false;
+      to_.whole_ = false;
       add(Landmark::Kind::Start, "started, or another state loaded");
       return true;
     case Event::Mark: {
@@ -92,7 +95,7 @@ private:
       return true;
     }
     case Event::Lost:
-      whole_ = false;
+      to_.whole_ = false;
       add(Landmark::Kind::Lost, "events are missing");
       return true;
     }
@@ -112,104 +115,60 @@ private:
   bool state(size_t at) {
     bytes();
     if (!reader_.good()) return false;
-    to_.states.push_back({segment_, group_.value_or(at), reader_.position(), to_.parts});
+    to_.states.push_back({segment_, group_.value_or(at), position(), to_.parts});
     group_.reset();
-    whole_ = true;
+    to_.whole_ = true;
     return true;
   }
 
   Contents& to_;
   uint32_t segment_;
+  size_t first_;
   EventReader reader_;
   std::optional<size_t> group_; // where the events before a state begin
-  bool whole_ = false;
 };
 
-} // namespace
-
-Contents::Contents(const Recording& recording) {
-  for (uint32_t i = 0; i < recording.segments.size(); ++i) {
+void Contents::grow(const Recording& recording) {
+  if (segmentParts.empty() && !recording.segments.empty()) segmentParts.push_back(0);
+  while (!segmentParts.empty()) {
+    const auto last = static_cast<uint32_t>(segmentParts.size() - 1);
+    const Segment& segment = recording.segments[last];
+    read_ = std::min(read_, segment.events.size());
+    Skimmer(*this, last, segment.events).run();
+    read_ = segment.events.size();
+    if (!segment.damage.empty() && !damageNoted_) {
+      landmarks.push_back({Landmark::Kind::Damaged, parts, segment.damage});
+      damageNoted_ = true;
+    }
+    if (segmentParts.size() == recording.segments.size()) break;
     segmentParts.push_back(parts);
-    Skimmer(*this, i, recording.segments[i]).run();
-    if (const std::string& damage = recording.segments[i].damage; !damage.empty())
-      landmarks.push_back({Landmark::Kind::Damaged, parts, damage});
+    read_ = 0;
+    damageNoted_ = false;
+    if (recording.segments[last + 1].continues) continue;
+    unreadable_ = false;
+    whole_ = false;
   }
-  std::ranges::stable_sort(landmarks, {}, &Landmark::part);
+  drop(recording);
 }
 
-// ---- files -------------------------------------------------------------------------------------------------------
-
-namespace {
-
-// The blocks of a file, in segments that each begin with a state. The last block may be cut off.
-void readSegment(runtime::SegmentReader& reader, Recording& to) {
-  Segment segment;
-  runtime::RecordedBlock block;
-  while (reader.next(block)) {
-    if (block.afterGap && !segment.events.empty()) {
-      segment.damage = fmt::format("{}: blocks before byte {} are damaged", reader.path(), block.offset);
-      to.segments.push_back(std::exchange(segment, {}));
-    }
-    segment.events.insert(segment.events.end(), block.events.begin(), block.events.end());
+uint64_t Contents::partAt(const Recording& recording, int64_t wallUs) const {
+  for (auto i = static_cast<uint32_t>(segmentParts.size()); i-- > recording.firstSegment;) {
+    const Segment& segment = recording.segments[i];
+    if (segment.beganUs > wallUs) continue;
+    const uint64_t first = segmentParts[i], end = i + 1 < segmentParts.size() ? segmentParts[i + 1] : parts;
+    if (wallUs >= segment.writtenUs) return end;
+    const auto share =
+        static_cast<double>(wallUs - segment.beganUs) / static_cast<double>(segment.writtenUs - segment.beganUs);
+    return first + static_cast<uint64_t>(share * static_cast<double>(end - first));
   }
-  if (!reader.ended() && reader.rest() != 0)
-    segment.damage = fmt::format("{} ends with {} bytes of a block that was cut off", reader.path(), reader.rest());
-  to.segments.push_back(std::move(segment));
-  to.problems.insert(to.problems.end(), reader.problems().begin(), reader.problems().end());
+  return states.empty() ? 0 : states.front().part;
 }
 
-// Whether the recording has this program now.
-bool takeProgram(const runtime::RecordingReader& reader, uint64_t hash,
-                 std::vector<std::unique_ptr<compiler::Compiled>>& known, Recording& to) {
-  for (const auto& program : to.programs)
-    if (program->codeHash == hash) return true;
-  for (auto& program : known)
-    if (program && program->codeHash == hash) {
-      to.programs.push_back(std::move(program));
-      return true;
-    }
-  std::string problem;
-  const std::optional<std::vector<uint8_t>> file = reader.program(hash, problem);
-  if (!file) {
-    to.problems.push_back(problem);
-    return false;
-  }
-  Result<compiler::Compiled> program =
-      compiler::programOf({reinterpret_cast<const char*>(file->data()), file->size()}, hash);
-  if (!program.ok()) {
-    to.problems.push_back(fmt::format("the program {}: {}", runtime::programName(hash), program.error()));
-    return false;
-  }
-  to.programs.push_back(std::make_unique<compiler::Compiled>(std::move(program).value()));
-  return true;
-}
-
-} // namespace
-
-Result<Recording> readRecording(const std::string& path, std::vector<std::unique_ptr<compiler::Compiled>> known) {
-  std::string problem;
-  const std::optional<runtime::RecordingReader> reader = runtime::RecordingReader::open(path, problem);
-  if (!reader) return failure(problem);
-  Recording recording;
-  bool first = true;
-  for (const runtime::SegmentFile& file : reader->segments()) {
-    std::optional<runtime::SegmentReader> segment = runtime::SegmentReader::open(reader->pathOf(file), problem);
-    if (!segment) {
-      recording.problems.push_back(problem);
-      continue;
-    }
-    if (first) recording.mode = segment->head().mode;
-    first = false;
-    if (segment->head().mode != recording.mode) {
-      recording.problems.push_back(file.name + " was recorded in another way than the segments before it");
-      continue;
-    }
-    if (takeProgram(*reader, segment->head().program, known, recording)) readSegment(*segment, recording);
-  }
-  recording.problems.insert(recording.problems.end(), reader->problems().begin(), reader->problems().end());
-  if (recording.programs.empty())
-    return failure(recording.problems.empty() ? "there is nothing to read in " + path : recording.problems[0]);
-  return recording;
+void Contents::drop(const Recording& recording) {
+  std::erase_if(states, [&](const StatePoint& point) { return point.segment < recording.firstSegment; });
+  if (states.empty() || recording.firstSegment == 0) return;
+  const uint64_t first = states.front().part;
+  droppedLandmarks += std::erase_if(landmarks, [&](const Landmark& landmark) { return landmark.part < first; });
 }
 
 } // namespace rung::replay

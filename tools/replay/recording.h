@@ -13,12 +13,16 @@
 namespace rung::replay {
 
 struct Segment {
-  std::vector<uint8_t> events;
+  std::vector<uint8_t> events; // of a recording that grows they stay where they are
+  bool continues = false;      // the segment before it, so that no state is needed to play it after that one
+  int64_t beganUs = 0;         // since 1970: when its first and its last events were written; 0: unknown
+  int64_t writtenUs = 0;
   std::string damage; // what is missing after it; "": nothing
 };
 
 struct Recording {
   std::vector<Segment> segments;
+  uint32_t firstSegment = 0; // those before it have been dropped, and are empty
   // Compiled with marks and their modules as built (CompileRequest::marks, keepBuilt); the first one first.
   std::vector<std::unique_ptr<compiler::Compiled>> programs;
   runtime::RecordingMode mode = runtime::RecordingMode::Bytes;
@@ -48,17 +52,29 @@ struct Landmark {
 
 // What a recording contains, without playing it. Parts are counted from the beginning; those that cannot be played,
 // because no state comes before them, do not count.
-struct Contents {
-  explicit Contents(const Recording& recording);
+class Contents {
+public:
+  explicit Contents(const Recording& recording) { grow(recording); }
+  // Adds what has been appended to the recording since, and removes what it has dropped.
+  void grow(const Recording& recording);
 
   uint64_t parts = 0;
   std::vector<StatePoint> states;     // ascending
   std::vector<Landmark> landmarks;    // by part
+  uint64_t droppedLandmarks = 0;      // before the first of them
   std::vector<uint64_t> segmentParts; // by segment: parts before it
-};
 
-// Reads the files of a recording: a folder, or one segment (docs/recording.md). `known`: programs that it may be of, in
-// addition to those that it has. Fails if there is nothing to read, or no program for any of it.
-Result<Recording> readRecording(const std::string& path, std::vector<std::unique_ptr<compiler::Compiled>> known = {});
+  // Parts that had run at this time, about; of a recording whose segments have times.
+  uint64_t partAt(const Recording& recording, int64_t wallUs) const;
+
+private:
+  friend class Skimmer;
+  void drop(const Recording& recording);
+
+  size_t read_ = 0;          // of the events of the last segment
+  bool whole_ = false;       // a state has come before
+  bool unreadable_ = false;  // up to the next segment that does not continue
+  bool damageNoted_ = false; // of the last segment
+};
 
 } // namespace rung::replay

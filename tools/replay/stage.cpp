@@ -14,6 +14,16 @@ bool playState(AnyPlayer& player, std::span<const uint8_t> events) {
   return player.play() == Played::State && player.play() == Played::End;
 }
 
+uint64_t takeRepeats(std::span<const uint8_t> events, size_t& position) {
+  runtime::EventReader reader(events.subspan(position));
+  if (reader.atEnd() || reader.next() != Event::Repeat) return 0;
+  (void)reader.takeEvent();
+  const uint64_t repeats = reader.takeNumber();
+  if (!reader.good()) return 0;
+  position += reader.position();
+  return repeats;
+}
+
 Result<std::unique_ptr<Stage>> Stage::make(const compiler::Compiled& compiled, compiler::EngineKind kind,
                                            runtime::RecordingMode mode) {
   std::unique_ptr<Stage> stage(new Stage(compiled, kind, mode));
@@ -52,8 +62,9 @@ const Flow* Stage::flow(const Moment& from, std::span<const uint8_t> events, con
   if (!playState(*flowPlayer_, from.events)) return nullptr;
   std::vector<uint8_t> again(64);
   EventWriter writer(again);
-  std::span<const uint8_t> next = events.subspan(from.position);
-  if (from.repeats != 0) {
+  size_t position = from.position;
+  std::span<const uint8_t> next = events.subspan(position);
+  if (from.repeats != 0 || takeRepeats(events, position) != 0) {
     writer.put(Event::Part, static_cast<uint8_t>(from.kind), from.number);
     next = writer.written();
   }

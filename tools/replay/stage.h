@@ -29,6 +29,9 @@ struct Moment {
   std::vector<uint8_t> events; // what a player plays to have the state
 };
 
+// Takes the number of repetitions at `position` of the events, which are of a part that the player has not run itself.
+uint64_t takeRepeats(std::span<const uint8_t> events, size_t& position);
+
 // Whether the player has the state of these events now.
 bool playState(AnyPlayer& player, std::span<const uint8_t> events);
 

@@ -20,7 +20,7 @@ void observeForces(scenario::Session& session, replay::FlowEngine& engine);
 class SessionSource final : public PacedSource {
 public:
   // All arguments must outlive it. The session has started; observeForces was called with both.
-  SessionSource(scenario::Session& session, const scenario::Explainer& explainer, const ShownProgram& program,
+  SessionSource(scenario::Session& session, const scenario::Explainer& explainer, const Drawn& drawn,
                 replay::FlowEngine& engine);
 
   bool isLive() const override { return true; }
@@ -62,6 +62,7 @@ private:
   scenario::Session& session_;
   const scenario::Explainer& explainer_;
   replay::FlowEngine& engine_;
+  const Drawn drawn_;
   ElementStates states_;
   const NamePlaces places_;
   uint64_t scan_ = 0;          // the one that is shown

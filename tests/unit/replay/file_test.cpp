@@ -14,6 +14,7 @@
 #include "ir/support/temporary_folder.h"
 #include "rung/runtime.hpp"
 #include "tools/replay/console.h"
+#include "tools/replay/growing_recording.h"
 #include "tools/replay/past.h"
 #include "tools/replay/record_run.h"
 #include "tools/replay/scenario_file.h"

@@ -359,7 +359,7 @@ export class History {
 }
 
 export function kindText(kind) {
-  return {message: 'message', gone: 'message gone', fault: 'fault', set: 'set', force: 'force', statement: 'operator', mark: 'mark'}[kind] ?? kind;
+  return {gone: 'message gone', statement: 'operator', begin: 'beginning', lost: 'missing'}[kind] ?? kind;
 }
 
 export function timeText(us) {

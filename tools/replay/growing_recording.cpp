@@ -1,0 +1,191 @@
+// See growing_recording.h.
+#include "tools/replay/growing_recording.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <utility>
+
+#include "compiler/embedded_ir.h"
+
+namespace rung::replay {
+namespace {
+
+constexpr size_t kSegmentBytes = 64 * 1024;          // room of a segment in memory, at least
+constexpr std::chrono::milliseconds kLookEvery{200}; // for other files
+constexpr uint64_t kPacked = 8;                      // events take at most so many times the bytes of their file
+
+} // namespace
+
+Result<std::unique_ptr<GrowingRecording>>
+GrowingRecording::open(const std::string& path, const RecordingLimits& limits,
+                       std::vector<std::unique_ptr<compiler::Compiled>> known) {
+  std::string problem;
+  std::optional<runtime::RecordingReader> reader = runtime::RecordingReader::open(path, problem);
+  if (!reader) return failure(problem);
+  std::unique_ptr<GrowingRecording> made(new GrowingRecording(std::move(*reader), limits, std::move(known)));
+  made->recording_.problems = made->reader_.problems();
+  const std::vector<runtime::SegmentFile>& files = made->reader_.segments();
+  for (size_t i = made->firstFile(); i < files.size(); ++i) {
+    made->openFile(files[i]);
+    (void)made->readBlocks();
+  }
+  const Recording& recording = made->recording_;
+  if (recording.programs.empty())
+    return failure(recording.problems.empty() ? "there is nothing to read in " + path : recording.problems[0]);
+  return made;
+}
+
+// Of the newest files, as many as the limits allow.
+size_t GrowingRecording::firstFile() const {
+  const std::vector<runtime::SegmentFile>& files = reader_.segments();
+  size_t first = files.size() - 1;
+  std::string problem;
+  const auto beganUs = [&](size_t file) {
+    const auto head = runtime::readSegmentHead(reader_.pathOf(files[file]), problem);
+    return head ? head->wallUs : 0;
+  };
+  const int64_t newest = beganUs(first);
+  uint64_t bytes = files[first].bytes;
+  while (first != 0 && newest - beganUs(first) < limits_.us &&
+         (bytes += files[first - 1].bytes) < limits_.bytes / kPacked)
+    --first;
+  return first;
+}
+
+bool GrowingRecording::take() {
+  drop();
+  const bool any = readBlocks();
+  if (any || Clock::now() - looked_ < kLookEvery) return any;
+  looked_ = Clock::now();
+  return nextFiles();
+}
+
+// A file that has a successor is not written any more.
+bool GrowingRecording::nextFiles() {
+  reader_.refresh();
+  bool any = false;
+  for (const runtime::SegmentFile& file : reader_.segments()) {
+    if (file.number <= fileNumber_) continue;
+    (void)readBlocks();
+    openFile(file);
+    any = readBlocks() || any;
+  }
+  return any;
+}
+
+void GrowingRecording::openFile(const runtime::SegmentFile& file) {
+  endFile();
+  fileNumber_ = file.number;
+  std::string problem;
+  std::optional<runtime::SegmentReader> opened = runtime::SegmentReader::open(reader_.pathOf(file), problem);
+  if (!opened) {
+    recording_.problems.push_back(problem);
+    return;
+  }
+  if (!std::exchange(hasMode_, true)) recording_.mode = opened->head().mode;
+  if (opened->head().mode != recording_.mode) {
+    recording_.problems.push_back(file.name + " was recorded in another way than the segments before it");
+    return;
+  }
+  if (!takeProgram(opened->head().program)) return;
+  file_ = std::move(opened);
+  fileProblems_ = 0;
+  begins_ = true;
+}
+
+// Whether the recording has this program now.
+bool GrowingRecording::takeProgram(uint64_t hash) {
+  for (const auto& program : recording_.programs)
+    if (program->codeHash == hash) return true;
+  for (auto& program : known_)
+    if (program && program->codeHash == hash) {
+      recording_.programs.push_back(std::move(program));
+      return true;
+    }
+  std::string problem;
+  const std::optional<std::vector<uint8_t>> file = reader_.program(hash, problem);
+  if (!file) {
+    recording_.problems.push_back(problem);
+    return false;
+  }
+  Result<compiler::Compiled> program =
+      compiler::programOf({reinterpret_cast<const char*>(file->data()), file->size()}, hash);
+  if (!program.ok()) {
+    recording_.problems.push_back(fmt::format("the program {}: {}", runtime::programName(hash), program.error()));
+    return false;
+  }
+  recording_.programs.push_back(std::make_unique<compiler::Compiled>(std::move(program).value()));
+  return true;
+}
+
+bool GrowingRecording::readBlocks() {
+  if (!file_) return false;
+  bool any = false;
+  runtime::RecordedBlock block;
+  while (file_->next(block)) {
+    if (block.afterGap && !recording_.segments.empty() && !begins_)
+      recording_.segments.back().damage =
+          fmt::format("{}: blocks before byte {} are damaged", file_->path(), block.offset);
+    begins_ = begins_ || block.afterGap;
+    append(block);
+    any = true;
+  }
+  const std::vector<std::string>& problems = file_->problems();
+  recording_.problems.insert(recording_.problems.end(), problems.begin() + static_cast<ptrdiff_t>(fileProblems_),
+                             problems.end());
+  fileProblems_ = problems.size();
+  return any;
+}
+
+void GrowingRecording::append(const runtime::RecordedBlock& block) {
+  std::vector<Segment>& segments = recording_.segments;
+  const bool continues = !std::exchange(begins_, false);
+  const auto room = [&] { return segments.back().events.capacity() - segments.back().events.size(); };
+  if (!continues || segments.empty() || room() < block.events.size()) {
+    Segment& made = segments.emplace_back();
+    made.continues = continues;
+    made.beganUs = block.wallUs;
+    made.events.reserve(std::max(kSegmentBytes, block.events.size()));
+    bytes_ += made.events.capacity();
+  }
+  Segment& last = segments.back();
+  last.events.insert(last.events.end(), block.events.begin(), block.events.end());
+  last.writtenUs = block.wallUs;
+  if (block.kind == runtime::BlockKind::State) lastState_ = static_cast<uint32_t>(segments.size() - 1);
+}
+
+void GrowingRecording::endFile() {
+  if (file_ && !file_->ended() && file_->rest() != 0) {
+    if (begins_) recording_.segments.emplace_back(); // it has no whole block
+    recording_.segments.back().damage =
+        fmt::format("{} ends with {} bytes of a block that was cut off", file_->path(), file_->rest());
+  }
+  file_.reset();
+}
+
+// Of the segments before the last state, which is needed to play what comes.
+void GrowingRecording::drop() {
+  if (recording_.segments.empty()) return;
+  const int64_t oldest =
+      recording_.segments.back().writtenUs - std::min(limits_.us, recording_.segments.back().writtenUs);
+  while (recording_.firstSegment < lastState_) {
+    Segment& first = recording_.segments[recording_.firstSegment];
+    if (bytes_ <= limits_.bytes && first.writtenUs >= oldest) break;
+    bytes_ -= first.events.capacity();
+    std::vector<uint8_t>().swap(first.events);
+    ++recording_.firstSegment;
+  }
+}
+
+Recording GrowingRecording::finish() && {
+  endFile();
+  return std::move(recording_);
+}
+
+Result<Recording> readRecording(const std::string& path, std::vector<std::unique_ptr<compiler::Compiled>> known) {
+  Result<std::unique_ptr<GrowingRecording>> growing = GrowingRecording::open(path, {}, std::move(known));
+  if (!growing.ok()) return growing.failure();
+  return std::move(*growing.value()).finish();
+}
+
+} // namespace rung::replay

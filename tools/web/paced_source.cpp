@@ -48,7 +48,7 @@ void PacedSource::run(const std::function<bool()>& ended) {
       lock.lock();
     }
     const Clock::time_point now = Clock::now();
-    const bool isDue = changed && !followers_.empty(); // nobody looks otherwise
+    const bool isDue = changed && !followers_.empty(); // otherwise no page looks
     if (stale_ || (isDue && now - pictured >= kPictureEvery)) {
       stale_ = changed = false;
       const std::set<std::string> names = followed();

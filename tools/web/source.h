@@ -46,7 +46,7 @@ struct Picture {
   int64_t us = 0; // on the program's clock
   Drawn drawn;
   RunState state = RunState::Running;
-  bool follows = false; // it goes on by itself
+  bool follows = false; // it continues by itself
   std::string fault;
   std::string notice;            // what people must know besides, such as that the machine cannot be reached
   std::string mayWrite;          // as Source::mayWrite

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <map>
 #include <utility>
 
 namespace rung::compile {
@@ -32,6 +33,16 @@ SourcePaths::SourcePaths(const std::vector<std::string>& program, const std::vec
 std::string SourcePaths::replaced(const std::string& path, const std::string& from, const std::string& to) {
   const bool isOf = from.empty() ? !path.starts_with('/') : path.starts_with(from);
   return isOf ? to + path.substr(from.size()) : path;
+}
+
+void rename(Sources& sources, const SourcePaths& paths) {
+  for (std::string& file : sources.files) file = paths.ofProgram(file);
+  for (std::string& folder : sources.includePaths) folder = paths.ofProgram(folder);
+  for (auto& [key, value] : sources.config)
+    if (sources.texts.contains(value)) value = paths.ofProgram(value);
+  std::map<std::string, std::string> texts;
+  for (auto& [path, text] : sources.texts) texts[paths.ofProgram(path)] = std::move(text);
+  sources.texts = std::move(texts);
 }
 
 } // namespace rung::compile

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "machine/compile/sources.h"
+
 namespace rung::compile {
 
 // How the paths of a program's files and those of files here differ, in how they begin.
@@ -19,5 +21,8 @@ private:
   static std::string replaced(const std::string& path, const std::string& from, const std::string& to);
   std::string there_, here_;
 };
+
+// Gives sources from here the paths that they have in the program.
+void rename(Sources& sources, const SourcePaths& paths);
 
 } // namespace rung::compile

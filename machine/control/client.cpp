@@ -15,10 +15,12 @@
 #include <ostream>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
 #include "machine/control/place.h"
+#include "machine/control/values.h"
 #include "rtlib/text/bit_word.h"
 #include "rtlib/text/number.h"
 
@@ -152,6 +154,29 @@ json asked(Client& client, const json& request, std::chrono::milliseconds patien
   json answer = client.ask(request, patience);
   if (!answer.value("ok", false)) throw std::runtime_error(answer.value("error", "the host refuses"));
   return answer;
+}
+
+json compiledByHost(Client& client, const std::string& packed, const volatile int& stop) {
+  constexpr size_t kPiece = 45'000; // a request has at most 64 kB
+  for (size_t at = 0; at < packed.size(); at += kPiece)
+    asked(client, {{"do", "sources"}, {"first", at == 0}, {"piece", toBase64(packed.substr(at, kPiece))}});
+  asked(client, {{"do", "compile"}});
+  json answer;
+  do {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    answer = asked(client, {{"do", "compiled"}});
+  } while (stop == 0 && answer["state"] == "compiling");
+  return answer;
+}
+
+std::string whetherItRuns(const json& answer, const char* program) {
+  if (answer.value("put_back", false))
+    return "the new program stopped at once with a fault, and the former one is back: see status";
+  const char* does = answer.value("waits", false)     ? "waits for a reset"
+                     : answer.value("stopped", false) ? "is stopped"
+                     : answer.value("again", false)   ? "runs again"
+                                                      : "runs";
+  return fmt::format("the {} program {}", program, does);
 }
 
 json writtenValue(const std::string& text) {

@@ -53,6 +53,12 @@ private:
 nlohmann::json asked(Client& client, const nlohmann::json& request,
                      std::chrono::milliseconds patience = Client::kAnswer);
 
+// Lets the host compile sources (compile::packed), which `reload` and `shadow` then use. The answer of `compiled`: its
+// `state` is not "compiling", unless `stop` has become other than 0.
+nlohmann::json compiledByHost(Client& client, const std::string& packed, const volatile int& stop);
+// A sentence about the state of the program after a reload or a rollback. `program`: "new", "former".
+std::string whetherItRuns(const nlohmann::json& answer, const char* program);
+
 // A value for `set` and `force`, which is written as in scenarios; what JSON cannot represent stays a text, which the
 // host accepts or refuses.
 nlohmann::json writtenValue(const std::string& text);

@@ -35,23 +35,13 @@ public:
   using std::runtime_error::runtime_error;
 };
 
-void rename(compile::Sources& sources, const compile::SourcePaths& paths) {
-  for (std::string& file : sources.files) file = paths.ofProgram(file);
-  for (std::string& folder : sources.includePaths) folder = paths.ofProgram(folder);
-  for (auto& [key, value] : sources.config)
-    if (sources.texts.contains(value)) value = paths.ofProgram(value);
-  std::map<std::string, std::string> texts;
-  for (auto& [path, text] : sources.texts) texts[paths.ofProgram(path)] = std::move(text);
-  sources.texts = std::move(texts);
-}
-
 // The program compiled from the sources, as the machine's program was.
 ProgramTables compiled(const Words& words, const ProgramTables& machine) {
   rung_compile::Collected collected = rung_compile::collect(words.files, isatty(STDERR_FILENO) != 0);
   if (!collected.sources) throw Unknown(collected.report);
   collected.sources->profile = machine.instrumented;
   const compile::SourcePaths paths(machine.files, collected.sources->files);
-  rename(*collected.sources, paths);
+  compile::rename(*collected.sources, paths);
   compile::Compilation compilation(compile::packed(*collected.sources));
   if (compilation.wait() != compile::Compilation::State::Compiled) throw Unknown(compilation.report());
   const Image image = Image::ofMemory(compilation.image(), "the program that was compiled");

@@ -13,8 +13,7 @@ namespace rung::rungc {
 // the page; "": the names of the files.
 Result<web::ShownProgram> drawnAgain(const compiler::Compiled& compiled, const std::string& title = {});
 // Of a program that a recording or a machine has. `files`: as on a command line; without any, those that the program
-// names. They may have other paths here. Fails if they are not there, or are not those of the program; mistakes in a
-// project file are printed.
+// names. They may have other paths here. Fails if they are not there, or are not those of the program.
 Result<web::ShownProgram> drawnFrom(const compiler::Compiled& program, const std::vector<std::string>& files);
 
 } // namespace rung::rungc

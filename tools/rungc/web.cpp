@@ -72,7 +72,7 @@ int serveMachine(const std::string& listen, FollowedHost host, const std::vector
   Result<web::ShownProgram> program = draw(host.followed.past->compiled());
   if (!program.ok()) return environmentError(program.error());
   host.client.reset(); // a host serves a limited number of connections
-  web::HostLink link(host.name);
+  web::HostLink link(host.name, files);
   web::MachineSource source(link, std::move(host.followed),
                             std::make_shared<const web::ShownProgram>(std::move(program).value()), draw);
   return serve(listen, source, ended);

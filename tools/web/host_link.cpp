@@ -8,6 +8,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "machine/rung-compile/collect.h"
+
 namespace rung::web {
 namespace {
 
@@ -21,7 +23,7 @@ constexpr auto kConnectEvery = 500ms;
 
 std::string mayWriteOf(const json& map, const std::string& host) {
   for (const json& right : map.value("permissions", json::array()))
-    if (right == "set" || right == "force") return {};
+    if (right == "set" || right == "force" || right == "reload") return {};
   return fmt::format("{} lets no client write; for it the mapping file needs [rungctl] permissions = "
                      "[\"set\", \"force\"]",
                      host);
@@ -41,6 +43,7 @@ json requestOf(const Order& order) {
   case Order::Kind::Pause:
   case Order::Kind::Step:
   case Order::Kind::Seek:
+  case Order::Kind::Reload: // several requests
   case Order::Kind::Statement: break;
   }
   return nullptr;
@@ -63,7 +66,8 @@ std::string doneOf(const Order& order, const json& answer) {
 
 } // namespace
 
-HostLink::HostLink(std::string host) : host_(std::move(host)), thread_([this] { run(); }) {}
+HostLink::HostLink(std::string host, std::vector<std::string> files)
+    : host_(std::move(host)), files_(std::move(files)), thread_([this] { run(); }) {}
 
 HostLink::~HostLink() {
   {
@@ -157,14 +161,32 @@ void HostLink::takeLog(const json& entry) {
 
 // ---- writing -----------------------------------------------------------------------------------------------------
 
+// The sources as they are now, which the host compiles.
+Result<std::string> HostLink::reload(control::Client& client) const {
+  const volatile int goesOn = 0;
+  std::vector<std::string> files = files_;
+  if (files.empty()) files = control::asked(client, {{"do", "program"}})["files"].get<std::vector<std::string>>();
+  const rung_compile::Collected collected = rung_compile::collect(files);
+  if (!collected.sources) return failure(collected.report);
+  const json compiled = control::compiledByHost(client, packed(*collected.sources), goesOn);
+  if (compiled.value("state", "") != "compiled")
+    return failure(compiled.value("report", "the host cannot compile them"));
+  const json answer = client.ask({{"do", "reload"}, {"compiled", true}});
+  if (answer.value("ok", false)) return control::whetherItRuns(answer, "new");
+  return failure(answer.value("error", "the host refuses") + "; nothing has changed" +
+                 (answer.contains("needs") ? "; `rungctl reload` lists what would be lost" : ""));
+}
+
 Result<std::string> HostLink::write(const Order& order) {
   const json request = requestOf(order);
-  if (request.is_null()) return failure("a machine takes no statements of scenarios");
+  const bool isReload = order.kind == Order::Kind::Reload;
+  if (request.is_null() && !isReload) return failure("a machine takes no statements of scenarios");
   const std::lock_guard lock(writing_);
   for (const bool isAgain : {false, true}) {
     const bool isOld = writer_ != nullptr;
     try {
       if (!isOld) writer_ = std::make_unique<control::Client>(host_, kPatience);
+      if (isReload) return reload(*writer_);
       const json answer = writer_->ask(request, kForcePatience);
       if (!answer.value("ok", false)) return failure(answer.value("error", "the host refuses"));
       return doneOf(order, answer);

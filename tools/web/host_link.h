@@ -36,7 +36,8 @@ struct HostEntry {
 
 class HostLink {
 public:
-  explicit HostLink(std::string host);
+  // `files`: the sources of its program, for `reload`; none: those that the program names.
+  HostLink(std::string host, std::vector<std::string> files);
   ~HostLink();
   HostLink(const HostLink&) = delete;
   HostLink& operator=(const HostLink&) = delete;
@@ -56,8 +57,10 @@ private:
   void ask(control::Client& client);
   void takeLog(const nlohmann::json& entry);
   void lost(const std::string& why);
+  Result<std::string> reload(control::Client& client) const;
 
   const std::string host_;
+  const std::vector<std::string> files_;
 
   std::mutex mutex_; // of what follows
   std::condition_variable wake_;

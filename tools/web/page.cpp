@@ -217,9 +217,11 @@ Response Page::order(const Request& request) {
     return found != asked.end() && found->is_string() ? found->get<std::string>() : std::string();
   };
   constexpr std::pair<std::string_view, Order::Kind> kKinds[] = {
-      {"run", Order::Kind::Run},         {"pause", Order::Kind::Pause}, {"step", Order::Kind::Step},
-      {"seek", Order::Kind::Seek},       {"set", Order::Kind::Set},     {"force", Order::Kind::Force},
-      {"unforce", Order::Kind::Unforce}, {"mark", Order::Kind::Mark},   {"statement", Order::Kind::Statement}};
+      {"run", Order::Kind::Run},         {"pause", Order::Kind::Pause},
+      {"step", Order::Kind::Step},       {"seek", Order::Kind::Seek},
+      {"set", Order::Kind::Set},         {"force", Order::Kind::Force},
+      {"unforce", Order::Kind::Unforce}, {"mark", Order::Kind::Mark},
+      {"reload", Order::Kind::Reload},   {"statement", Order::Kind::Statement}};
   const std::string what = word("do");
   const auto kind = std::ranges::find(kKinds, what, &std::pair<std::string_view, Order::Kind>::first);
   if (kind == std::end(kKinds)) return textOf(400, fmt::format("no order is called '{}'", what));

@@ -151,6 +151,7 @@ Result<std::string> PastSource::carryOut(const Order& order) {
   case Order::Kind::Force:
   case Order::Kind::Unforce:
   case Order::Kind::Mark:
+  case Order::Kind::Reload:
   case Order::Kind::Statement: break;
   }
   return failure(mayWrite());

@@ -195,7 +195,8 @@ Result<std::string> SessionSource::carryOut(const Order& order) {
   case Order::Kind::Set: return write(fmt::format("set {} {}", name, scenario::asWord(order.value)), "set");
   case Order::Kind::Force: return write(fmt::format("force {} {}", name, scenario::asWord(order.value)), "force");
   case Order::Kind::Unforce: return write(name.empty() ? "unforce" : "unforce " + name, "force");
-  case Order::Kind::Mark: break; // nothing is recorded
+  case Order::Kind::Mark:
+  case Order::Kind::Reload: return failure("only a machine can do that");
   case Order::Kind::Statement: return write(order.name, "statement");
   }
   return failure("an unknown order");

@@ -61,7 +61,7 @@ struct Picture {
 
 // What a page wants done.
 struct Order {
-  enum class Kind : uint8_t { Run, Pause, Step, Seek, Set, Force, Unforce, Mark, Statement };
+  enum class Kind : uint8_t { Run, Pause, Step, Seek, Set, Force, Unforce, Mark, Reload, Statement };
   Kind kind = Kind::Pause;
   int64_t scans = 0; // Step: forwards or backwards; Seek: to this scan
   std::string name;  // Set, Force, Unforce; Mark: the text; Statement: the whole line

@@ -239,7 +239,12 @@ async function start() {
   document.addEventListener('click', () => more(false));
   by('theme').onclick = () => setTheme(isDark() ? 'light' : 'dark');
   by('keys').onclick = keysDialog;
-  by('mark').hidden = !index.machine;
+  by('mark').hidden = by('reload').hidden = !index.machine;
+  by('reload').onclick = () => {
+    if (!writer.on) return tell('The machine would get another program: switch writing on first', true);
+    dialog('Reload the program?', [make('p', '', 'The host compiles its sources as they are now, and the new program takes over ' +
+      'between two scans.')], [['Reload', () => { tell('Compiling …'); writer.send({do: 'reload'}); }], ['Cancel']]);
+  };
   by('mark').onclick = () => {
     if (!writer.on) return tell('A mark is written into the recording: switch writing on first', true);
     const text = make('input');

@@ -136,7 +136,7 @@ class Machine(Following):
         self.until(lambda p: p["scan"] > first["scan"] + 20)
         self.assertEqual(first["notice"], "")
         index = self.live.ask("index")
-        self.assertEqual((index["title"], index["live"], index["machine"]), ("mill", True, True))
+        self.assertEqual((index["title"], index["live"], index["machine"]), ("mill.pmc", True, True))
         lamp = self.row("lamp")
         self.until(lambda p: p["values"] == {"LAMP": "0"} and p["rows"][lamp].count("0"), "LAMP")
         self.host.done("set", "BUTTON", "on")
@@ -308,7 +308,7 @@ class Sources(unittest.TestCase):
         self.assertIn("mill.pmc:2", self.failed())
 
     def test_wrong_words(self):
-        self.assertIn("--listen", self.host.ctl("web", "--listen", "nowhere").stderr)
+        self.assertIn("--listen", self.host.ctl("web", "--listen", "nowhere:99999").stderr)
         self.assertIn("cannot reach a host", self.host.ctl("web", "--host", "other").stderr)
 
 

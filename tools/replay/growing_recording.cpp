@@ -53,8 +53,8 @@ size_t GrowingRecording::firstFile() const {
 }
 
 bool GrowingRecording::take() {
-  drop();
-  const bool any = readBlocks();
+  const bool dropped = drop();
+  const bool any = readBlocks() || dropped;
   if (any || Clock::now() - looked_ < kLookEvery) return any;
   looked_ = Clock::now();
   return nextFiles();
@@ -164,8 +164,9 @@ void GrowingRecording::endFile() {
 }
 
 // Of the segments before the last state, which is needed to play what comes.
-void GrowingRecording::drop() {
-  if (recording_.segments.empty()) return;
+bool GrowingRecording::drop() {
+  if (recording_.segments.empty()) return false;
+  const uint32_t before = recording_.firstSegment;
   const int64_t oldest =
       recording_.segments.back().writtenUs - std::min(limits_.us, recording_.segments.back().writtenUs);
   while (recording_.firstSegment < lastState_) {
@@ -175,6 +176,7 @@ void GrowingRecording::drop() {
     std::vector<uint8_t>().swap(first.events);
     ++recording_.firstSegment;
   }
+  return recording_.firstSegment != before;
 }
 
 Recording GrowingRecording::finish() && {

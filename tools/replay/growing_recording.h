@@ -35,8 +35,8 @@ public:
   GrowingRecording& operator=(const GrowingRecording&) = delete;
 
   const Recording& recording() const { return recording_; }
-  // Appends what has been written since. Whether there was anything; then Past::grown() is to be called before anything
-  // else of a Past of this recording.
+  // Appends what has been written since, and drops what exceeds the limits. Whether there was anything; then
+  // Past::grown() is to be called before anything else of a Past of this recording.
   bool take();
   // Whether the host has ended the recording regularly.
   bool ended() const { return file_ && file_->ended(); }
@@ -56,7 +56,7 @@ private:
   bool readBlocks();
   void append(const runtime::RecordedBlock& block);
   void endFile();
-  void drop();
+  bool drop();
 
   runtime::RecordingReader reader_;
   RecordingLimits limits_;

@@ -1,6 +1,7 @@
 // The live page (see web.h).
 #include "tools/rungc/web.h"
 
+#include <cstdio>
 #include <fmt/format.h>
 #include <memory>
 #include <utility>
@@ -34,7 +35,7 @@ int serve(const std::string& listen, web::PacedSource& source, const std::functi
       });
   if (!server.ok()) return environmentError(server.error());
   fmt::print("{}\n", server.value()->newLink());
-  std::fflush(stdout);
+  if (std::fflush(stdout) != 0) return kOk; // CommandLine::run reports it; without the link there is no page
   source.run(ended);
   return kOk;
 }

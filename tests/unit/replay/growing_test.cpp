@@ -61,7 +61,7 @@ struct Host {
     instance.powerOn(rung::Power::Cold);
     for (int scan = 0; scan < kScans; ++scan) {
       go = scan / 100 % 2;
-      EXPECT_EQ(instance.scan(), RUNG_OK);
+      EXPECT_EQ(instance.slot(), RUNG_OK);
       lamps.push_back(static_cast<int>(instance.read<int64_t>(instance.find(coil))));
       if (scan % 250 == 0) std::this_thread::sleep_for(100ms); // a block is written
     }
@@ -146,6 +146,7 @@ TEST_F(Growing, WhatIsWrittenIsTakenWheneverABlockIsWhole) {
       parts = past.contents().parts;
       ASSERT_EQ(lampAt(past, parts), host_.lamps[parts - 1]) << parts;
       ASSERT_NE(past.flow(), nullptr) << parts;
+      ASSERT_EQ(past.flowInstance().nowUs(), past.instance().nowUs()) << "the same part ran rung by rung";
       const uint64_t before = 1 + random() % parts;
       ASSERT_EQ(lampAt(past, before), host_.lamps[before - 1]) << before;
     }

@@ -8,9 +8,11 @@
 
 #include <nlohmann/json.hpp>
 
-#include "machine/rungctl/client.h"
+#include "machine/control/client.h"
 
 namespace rung::rungctl {
+
+using control::Client;
 
 struct Look {
   struct Pin {

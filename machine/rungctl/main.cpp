@@ -1,7 +1,6 @@
 // rungctl: shows and changes a program that runs in a host, through the host's socket (docs/control-protocol.md).
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <csignal>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -17,35 +16,26 @@
 
 #include "machine/command-line/usage.h"
 #include "machine/compile/compilation.h"
+#include "machine/control/client.h"
 #include "machine/control/log.h"
 #include "machine/control/place.h"
-#include "machine/rungctl/client.h"
 #include "machine/rungctl/log.h"
 #include "machine/rungctl/reload.h"
+#include "machine/rungctl/rungc.h"
 #include "machine/rungctl/status.h"
 #include "machine/rungctl/top.h"
 #include "machine/rungctl/trace.h"
 #include "machine/rungctl/verify.h"
 #include "machine/rungctl/words.h"
-#include "rtlib/text/bit_word.h"
-#include "rtlib/text/number.h"
 
 namespace {
 
 using namespace rung;
 using namespace rung::rungctl;
+using control::writtenValue;
 using nlohmann::json;
 
 volatile int gStop = 0; // set by SIGINT and SIGTERM
-
-// Values are written as in scenarios; those that JSON cannot represent stay texts, which the host accepts or refuses.
-json valueOf(const std::string& text) {
-  if (const std::optional<bool> bit = text::bitWord(text)) return *bit;
-  const text::WrittenNumber number = text::writtenNumber(text);
-  if (number.form == text::NumberForm::Real && std::isfinite(number.real)) return number.real;
-  if (number.form != text::NumberForm::Whole) return text;
-  return number.negative ? json(static_cast<int64_t>(number.bits())) : json(number.magnitude);
-}
 
 int get(Client& client, const Words& words) {
   const json answer = asked(client, {{"do", "get"}, {"names", words.names}});
@@ -121,7 +111,7 @@ int trace(Client& client, const Words& words) {
 }
 
 int set(Client& client, const Words& words) {
-  const json answer = asked(client, {{"do", "set"}, {"name", words.name}, {"value", valueOf(words.value)}});
+  const json answer = asked(client, {{"do", "set"}, {"name", words.name}, {"value", writtenValue(words.value)}});
   std::string text = fmt::format("{} = {} (was {})", words.name, shown(answer["value"]), shown(answer["former"]));
   if (answer.contains("note")) text += "\n" + answer["note"].get<std::string>();
   print(words, answer, text);
@@ -135,7 +125,7 @@ int event(Client& client, const Words& words) {
     const size_t equals = word.find('=');
     if (equals == std::string::npos || equals == 0)
       return fail("event: found " + word + ", expected KEY=VALUE", cli::kUsage);
-    const json value = valueOf(word.substr(equals + 1));
+    const json value = writtenValue(word.substr(equals + 1));
     keys[word.substr(0, equals)] = value.is_number() ? value : json(word.substr(equals + 1));
   }
   print(words, asked(client, {{"do", "event"}, {"name", words.name}, {"keys", keys}}), "done");
@@ -146,7 +136,8 @@ int event(Client& client, const Words& words) {
 constexpr std::chrono::seconds kForce(compile::Compilation::kMostSeconds + 10);
 
 int force(Client& client, const Words& words) {
-  const json answer = asked(client, {{"do", "force"}, {"name", words.name}, {"value", valueOf(words.value)}}, kForce);
+  const json answer =
+      asked(client, {{"do", "force"}, {"name", words.name}, {"value", writtenValue(words.value)}}, kForce);
   print(words, answer, fmt::format("{} is forced to {}", words.name, shown(answer["value"])));
   return cli::kOk;
 }
@@ -234,7 +225,7 @@ int serve(Client& client, const Words& words) {
   constexpr double kMsInS = 1000;
   if (words.seconds > 0) request["alive_ms"] = static_cast<unsigned>(words.seconds * kMsInS);
   std::cout << asked(client, request).dump() << std::endl;
-  rungctl::relay(client.connection(), STDIN_FILENO, std::cout, gStop);
+  control::relay(client.connection(), STDIN_FILENO, std::cout, gStop);
   return cli::kOk;
 }
 
@@ -333,6 +324,20 @@ constexpr Row kCommands[] = {
     {"top", "Show scan times, costly rungs, timers, changed pins, messages and what waits, once a second",
      [](cli::Command& command, Words& words) { command.flag("--once", words.once, "Print all of it once, as text"); },
      nullptr, [](const Words& words) { return top(words, gStop); }},
+    {"web", "Show the program in a browser: its rungs with power flow and values, its past, and why; by rungc",
+     [](cli::Command& command, Words& words) {
+       command.option("FILE", words.files,
+                      "Sources of the program, or the folder of its project; default: the files that it names");
+       command.option("--listen", words.listen,
+                      "Address of the page, such as 8080 or 192.168.0.5:8080; default: a free port of this computer");
+     },
+     web},
+    {"why", "Say why a variable has its value: the rungs and inputs that lead to it; by rungc",
+     [](cli::Command& command, Words& words) {
+       command.option("NAME", words.name, "Variable; or NAME@TIME, such as LAMP@12.5s of the program's clock")
+           .required();
+     },
+     why},
     {"get", "Show values at the end of a scan", namesOption, get},
     {"watch", "Show values whenever they change, until Ctrl+C",
      [](cli::Command& command, Words& words) {

@@ -7,11 +7,13 @@
 
 #include <nlohmann/json.hpp>
 
-#include "machine/rungctl/client.h"
+#include "machine/control/client.h"
 #include "rtlib/load/program_parts.h"
 #include "rung/runtime.hpp"
 
 namespace rung::rungctl {
+
+using control::Client;
 
 struct ProgramTables {
   struct Rung {

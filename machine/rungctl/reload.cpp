@@ -16,7 +16,6 @@
 #include <thread>
 #include <vector>
 
-#include "machine/control/values.h"
 #include "machine/rung-compile/collect.h"
 
 namespace rung::rungctl {
@@ -48,17 +47,6 @@ std::string reportOf(const json& answer) {
     text +=
         fmt::format("{} {} ended: {}\n", names.size(), names.size() == 1 ? "force" : "forces", fmt::join(names, ", "));
   return text;
-}
-
-// A sentence about the state of the program after a reload or a rollback.
-std::string whetherItRuns(const json& answer, const char* program) {
-  if (answer.value("put_back", false))
-    return "the new program stopped at once with a fault, and the former one is back: see status";
-  const char* does = answer.value("waits", false)     ? "waits for a reset"
-                     : answer.value("stopped", false) ? "is stopped"
-                     : answer.value("again", false)   ? "runs again"
-                                                      : "runs";
-  return fmt::format("the {} program {}", program, does);
 }
 
 std::string stateOf(const json& report) {
@@ -108,12 +96,6 @@ int failSources(const Words& words, const std::string& report, const std::string
   return fail("nothing has changed", status);
 }
 
-void sendSources(Client& client, const std::string& packed) {
-  constexpr size_t kPiece = 45'000; // a request has at most 64 kB
-  for (size_t at = 0; at < packed.size(); at += kPiece)
-    asked(client, {{"do", "sources"}, {"first", at == 0}, {"piece", control::toBase64(packed.substr(at, kPiece))}});
-}
-
 // Lets the host compile the sources. Returns kOk, or another status after printing the errors.
 int compileThere(Client& client, const Words& words, const volatile int& stop) {
   rung_compile::Collected collected = rung_compile::collect(words.files, isatty(STDERR_FILENO) != 0);
@@ -121,13 +103,7 @@ int compileThere(Client& client, const Words& words, const volatile int& stop) {
     return failSources(words, collected.report, collected.diagnostics,
                        collected.unreadable ? cli::kEnvironment : cli::kWrong);
   collected.sources->profile = words.profile;
-  sendSources(client, packed(*collected.sources));
-  asked(client, {{"do", "compile"}});
-  json answer;
-  do {
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    answer = asked(client, {{"do", "compiled"}});
-  } while (stop == 0 && answer["state"] == "compiling");
+  const json answer = control::compiledByHost(client, packed(*collected.sources), stop);
   const std::string report = answer.value("report", "");
   if (answer["state"] != "compiled") return failSources(words, report);
   if (!words.common.asJson) std::cerr << report; // warnings
@@ -171,7 +147,7 @@ int reload(Client& client, const Words& words, const volatile int& stop) {
   request.update({{"do", "reload"}, {"yes", words.yes}, {"late", words.late}});
   const json answer = client.ask(request);
   if (answer.value("ok", false)) {
-    print(words, answer, reportOf(answer) + whetherItRuns(answer, "new"));
+    print(words, answer, reportOf(answer) + control::whetherItRuns(answer, "new"));
     return answer.value("put_back", false) ? cli::kWrong : cli::kOk;
   }
   if (words.common.asJson) std::cout << answer.dump() << '\n';
@@ -184,7 +160,8 @@ int reload(Client& client, const Words& words, const volatile int& stop) {
 
 int rollback(Client& client, const Words& words) {
   const json answer = asked(client, {{"do", "rollback"}});
-  print(words, answer, reportOf(answer) + whetherItRuns(answer, answer.value("again", false) ? "reloaded" : "former"));
+  print(words, answer,
+        reportOf(answer) + control::whetherItRuns(answer, answer.value("again", false) ? "reloaded" : "former"));
   return cli::kOk;
 }
 

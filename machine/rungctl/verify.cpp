@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "machine/compile/compilation.h"
+#include "machine/compile/source_paths.h"
 #include "machine/rung-compile/collect.h"
 #include "machine/rungctl/program_tables.h"
 #include "machine/rungctl/reload.h"
@@ -34,57 +35,13 @@ public:
   using std::runtime_error::runtime_error;
 };
 
-// What is before the parts of two paths that are equal at their ends: for /plc/mill/a.pmc and mill/a.pmc "/plc/" and
-// "".
-std::pair<std::string, std::string> prefixesOf(const std::string& a, const std::string& b) {
-  size_t common = 0;
-  for (size_t n = 1; n <= std::min(a.size(), b.size()) && a[a.size() - n] == b[b.size() - n]; ++n) {
-    const auto begins = [n](const std::string& path) { return n == path.size() || path[path.size() - n - 1] == '/'; };
-    if (begins(a) && begins(b)) common = n;
-  }
-  return {a.substr(0, a.size() - common), b.substr(0, b.size() - common)};
-}
-
-// The paths of sources here and in the machine's program, which differ in how they begin. Paths are part of a program:
-// the same files in another folder are the same program only under its paths.
-class Paths {
-public:
-  Paths() = default; // the same ones
-  Paths(const std::vector<std::string>& machine, const std::vector<std::string>& here) {
-    if (machine.empty() || here.empty()) return;
-    const auto [there, begin] = prefixesOf(machine.front(), here.front());
-    if (there.size() != machine.front().size()) there_ = there, here_ = begin; // otherwise they are other files
-  }
-
-  std::string ofMachine(const std::string& path) const { return replaced(path, here_, there_); }
-  std::string here(const std::string& path) const { return replaced(path, there_, here_); }
-
-private:
-  // A path that begins with "" is any that does not begin with '/'.
-  static std::string replaced(const std::string& path, const std::string& from, const std::string& to) {
-    const bool isOf = from.empty() ? !path.starts_with('/') : path.starts_with(from);
-    return isOf ? to + path.substr(from.size()) : path;
-  }
-  std::string there_, here_;
-};
-
-void rename(compile::Sources& sources, const Paths& paths) {
-  for (std::string& file : sources.files) file = paths.ofMachine(file);
-  for (std::string& folder : sources.includePaths) folder = paths.ofMachine(folder);
-  for (auto& [key, value] : sources.config)
-    if (sources.texts.contains(value)) value = paths.ofMachine(value);
-  std::map<std::string, std::string> texts;
-  for (auto& [path, text] : sources.texts) texts[paths.ofMachine(path)] = std::move(text);
-  sources.texts = std::move(texts);
-}
-
 // The program compiled from the sources, as the machine's program was.
 ProgramTables compiled(const Words& words, const ProgramTables& machine) {
   rung_compile::Collected collected = rung_compile::collect(words.files, isatty(STDERR_FILENO) != 0);
   if (!collected.sources) throw Unknown(collected.report);
   collected.sources->profile = machine.instrumented;
-  const Paths paths(machine.files, collected.sources->files);
-  rename(*collected.sources, paths);
+  const compile::SourcePaths paths(machine.files, collected.sources->files);
+  compile::rename(*collected.sources, paths);
   compile::Compilation compilation(compile::packed(*collected.sources));
   if (compilation.wait() != compile::Compilation::State::Compiled) throw Unknown(compilation.report());
   const Image image = Image::ofMemory(compilation.image(), "the program that was compiled");

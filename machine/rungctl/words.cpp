@@ -2,7 +2,6 @@
 #include "machine/rungctl/words.h"
 
 #include <iostream>
-#include <stdexcept>
 
 #include "rtlib/text/controls.h"
 
@@ -13,12 +12,6 @@ using nlohmann::json;
 int fail(const std::string& message, int status) {
   std::cerr << "rungctl: " << text::withoutControls(message, "\n\t") << '\n';
   return status;
-}
-
-json asked(Client& client, const json& request, std::chrono::milliseconds patience) {
-  json answer = client.ask(request, patience);
-  if (!answer.value("ok", false)) throw std::runtime_error(answer.value("error", "the host refuses"));
-  return answer;
 }
 
 std::string shown(const json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); }

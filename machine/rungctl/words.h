@@ -9,9 +9,12 @@
 #include <nlohmann/json.hpp>
 
 #include "machine/command-line/usage.h"
-#include "machine/rungctl/client.h"
+#include "machine/control/client.h"
 
 namespace rung::rungctl {
+
+using control::asked;
+using control::Client;
 
 // Arguments of all commands.
 struct Common {
@@ -27,6 +30,7 @@ struct Words {
   std::string value;
   std::string file;
   std::vector<std::string> files;
+  std::string listen;
   double seconds = 0;
   bool all = false;
   bool follow = false;
@@ -47,9 +51,6 @@ struct Words {
 
 // Prints the reason on standard error; returns the exit status.
 int fail(const std::string& message, int status = cli::kWrong);
-// Sends a request and returns the answer; throws std::runtime_error with the host's sentence if the answer is not ok.
-nlohmann::json asked(Client& client, const nlohmann::json& request,
-                     std::chrono::milliseconds patience = Client::kAnswer);
 // A JSON value as text; strings without quotes.
 std::string shown(const nlohmann::json& value);
 // Prints the answer with --json, otherwise the text.

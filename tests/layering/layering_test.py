@@ -37,6 +37,9 @@ GOOD = {
     "machine/rung-run/devices.cpp": '#include "machine/io/tables.h"\n',
     "sim/simulated_nc.h": "namespace rung::sim::gsk {",
     "tools/report/difference.h": '#include "ir/core/module.h"\n',
+    "machine/control/client.h": '#include "machine/control/server.h"\n',
+    "machine/control/server.h": "",
+    "tools/web/host_link.h": '#include "machine/control/client.h"\n',
     "tools/scenario/session.h": '#include "tools/report/difference.h"\n',
     "tools/rungc/main.cpp": '#include "codegen/cpp/emit.h"\n#include <nlohmann/json.hpp>\n',
 }
@@ -76,6 +79,7 @@ BAD = {
     "the control in the names": ("rtlib/nc/names/x.cpp", '#include "rtlib/nc/control/control.h"'),
     "the names in the signal tables": ("rtlib/nc/x.cpp", '#include "rtlib/nc/names/names.h"'),
     "a report includes what drives programs": ("tools/report/x.cpp", '#include "tools/scenario/session.h"'),
+    "a tool includes the server of the socket": ("tools/web/x.cpp", '#include "machine/control/server.h"'),
     "TOML outside its wall": ("machine/host/x.cpp", "#include <toml++/toml.h>"),
     "a library includes a tool": ("codegen/cpp/x.cpp", '#include "tools/rungc/main.cpp"'),
     "an include without its folder": ("ir/core/x.cpp", '#include "module.h"'),

@@ -695,7 +695,7 @@ class FullDisk(Host):
     commands = {"hosts": [], "status": [], "messages": [], "get": ["X0.0"], "watch": ["X0.0"], "trace": ["X0.0", "-o", "{home}/full.vcd", "--for", "0.1"],
                 "set": ["D8:2", "1"], "event": ["reset"], "force": ["D8:2", "1"], "unforce": ["--all"], "forced": [], "reload": ["{program}"],
                 "rollback": [], "mark": ["here"], "recording": ["--keep"], "stop": [], "start": [], "reset": [], "map": [], "profile": [], "serve": [],
-                "log": [], "top": ["--once"], "verify": ["{program}"], "completion": ["bash"], "help": []}
+                "log": [], "top": ["--once"], "verify": ["{program}"], "web": [], "why": ["D8:2"], "completion": ["bash"], "help": []}
 
     def start(self):
         self.host = subprocess.Popen([BIN / "rung-run", self.program, self.home / "plc.map", "--name", "plc", "--simulate"],
@@ -715,8 +715,9 @@ class FullDisk(Host):
         for name in ("reset", *(name for name in self.commands if name != "reset")):
             with self.subTest(command=name), open("/dev/full", "w") as full:
                 done = self.run_it(name, full)
-                self.assertEqual((done.returncode, done.stderr), (ENVIRONMENT, "rungctl: cannot write to standard output\n"))
-                if name not in ("reset", "stop", "start"):  # which the program does once
+                by = "rungc" if name in ("web", "why") else "rungctl"
+                self.assertEqual((done.returncode, done.stderr), (ENVIRONMENT, f"{by}: cannot write to standard output\n"))
+                if name not in ("reset", "stop", "start", "web"):  # which the program does once; web runs until Ctrl-C
                     self.assertNotEqual(self.run_it(name, subprocess.PIPE).stdout, "")
 
 

@@ -18,9 +18,9 @@ LINK = re.compile(r"http://([^/]+)/\?token=([0-9a-f]+)")
 class Live:
     """rungc run … --web, until close()."""
 
-    def __init__(self, rungc, *words, cwd=ROOT, command="run", under=()):
-        self.process = subprocess.Popen([*under, rungc, command, *map(str, words), "--web"], cwd=cwd, stdout=subprocess.PIPE,
-                                        stderr=subprocess.STDOUT, text=True)
+    def __init__(self, rungc, *words, cwd=ROOT, command="run", option="--web", environment=None, under=()):
+        words = [*under, rungc, command, *map(str, words), *([option] if option else [])]
+        self.process = subprocess.Popen(words, cwd=cwd, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=environment)
         printed = []
         found = None
         while found is None:
@@ -31,8 +31,18 @@ class Live:
             found = LINK.match(line)
         self.drain = threading.Thread(target=self.process.stdout.read, daemon=True)  # messages of the program
         self.drain.start()
-        self.link = found.group()
-        self.address, self.token = found.groups()
+        self.take(found)
+
+    @classmethod
+    def of_link(cls, link):
+        """Another browser of a page that is there."""
+        live = cls.__new__(cls)
+        live.take(LINK.match(link))
+        return live
+
+    def take(self, link):
+        self.link = link.group()
+        self.address, self.token = link.groups()
         self.cookie = ""
 
     def log_in(self):

@@ -3,7 +3,9 @@
 import sys
 import time
 import unittest
+from pathlib import Path
 
+import machine_test
 from browser import Browser, Keys
 from live import ROOT, Live
 
@@ -340,6 +342,120 @@ class Recorded(unittest.TestCase):
         finally:
             page.close()
             live.close()
+
+
+class Machine(unittest.TestCase):
+    """A machine that runs, with a host and a page of its own for each test."""
+
+    def begin(self, **how):
+        machine_test.BIN = Path(RUNGC).resolve().parent
+        self.host = machine_test.Host(**how)
+        self.addCleanup(self.host.end)
+        self.live = self.host.page()
+        self.addCleanup(self.live.close)
+        self.page = Browser()
+        self.addCleanup(self.page.close)
+        self.page.open(self.live.link)
+        self.state("Running")
+
+    def state(self, text):
+        self.page.until("return document.getElementById('state').textContent === arguments[0]", text, text)
+
+    def scan(self):
+        return int(self.page.text("#scan"))
+
+    def later(self, scan):
+        self.page.until("return Number(document.getElementById('scan').textContent) > arguments[0]", "scans", scan)
+
+    def choose(self, name):
+        box = self.page.find("#what")
+        box.clear()
+        box.send_keys(name)
+        self.page.until("return document.querySelector('#found li:not(.none)')", "found")
+        box.send_keys(Keys.ENTER)
+        self.page.until("return document.querySelector('#detail h2')?.textContent === arguments[0]", name, name)
+
+    def switch_writing_on(self):
+        self.page.click("#writing")
+        self.page.js("[...document.querySelectorAll('dialog button')].find(b => b.textContent === 'Switch on').click()")
+        self.page.until("return document.querySelector('#detail .write input')", "the form")
+
+    def write(self, value, button):
+        self.page.js("document.querySelector('#detail .write input').value = arguments[0]", value)
+        self.page.js("[...document.querySelectorAll('#detail .write button')].find(b => b.textContent === arguments[0]).click()", button)
+
+    def test_live_past_and_why(self):
+        self.begin()
+        page = self.page
+        self.later(self.scan() + 30)
+        page.until("return document.querySelector('#r2 .o[data-name=LAMP]')?.dataset.on === '0'", "the lamp is off")
+        self.host.done("set", "BUTTON", "on")
+        page.until("return document.querySelector('#r2 .o[data-name=LAMP]').dataset.on === '1'", "the lamp is on")
+        self.choose("LAMP")
+        page.js("[...document.querySelectorAll('#detail button')].find(b => b.textContent === 'Why?').click()")
+        page.until("return /BUTTON/.test(document.querySelector('.step:last-child')?.textContent)", "the chain")
+        page.js("document.querySelector('.step a:last-of-type').click()")
+        self.state("Past")
+        pressed = self.scan()
+        self.assertEqual(page.text("#go"), "To now")
+        page.click("#back")
+        page.until("return document.getElementById('scan').textContent === String(arguments[0])", "a scan back", pressed - 1)
+        page.until("return document.querySelector('#r2 .o[data-name=LAMP]').dataset.on === '0'", "it was off")
+        page.until("return Number(document.getElementById('slider').max) > arguments[0] + 100", "the machine runs on", pressed)
+        self.assertEqual(self.scan(), pressed - 1)
+        page.click("#go")
+        self.state("Running")
+        self.later(pressed + 100)
+        self.assertEqual(page.errors(), [])
+
+    def test_force_with_the_right(self):
+        self.begin()
+        self.choose("LAMP")
+        self.switch_writing_on()
+        self.write("1", "Force")
+        self.page.until("return document.querySelector('#detail output').textContent === '1 (forced)'", "forced")
+        self.page.until("return document.querySelector('#r2 .forced')?.dataset.name === 'LAMP'", "marked in the rung")
+        self.write("", "Release")
+        self.page.until("return document.getElementById('forced').hidden", "released")
+        self.page.click("#tab-log")
+        self.page.until("return /unforce LAMP .*by/.test(document.getElementById('log').textContent)", "in the history")
+        self.assertEqual(self.page.errors(), [])
+
+    def test_force_without_the_right(self):
+        self.begin(map=machine_test.MAP)
+        self.page.click("#writing")
+        self.page.until("return /permissions/.test(document.getElementById('toast').textContent)", "refused, with what is needed")
+        self.assertEqual(self.page.js("return document.getElementById('writing').getAttribute('aria-pressed')"), "false")
+
+    def test_a_host_that_is_killed_and_started_again(self):
+        self.begin()
+        self.host.kill()
+        self.state("No connection")
+        self.page.until("const n = document.getElementById('notice'); return !n.hidden && /plc/.test(n.textContent)", "it says why")
+        last = self.scan()
+        self.host.start()
+        self.state("Running")
+        self.later(last + 20)
+        self.page.until("return document.getElementById('notice').hidden", "all is well")
+        self.assertEqual(self.page.errors(), [])
+
+    def test_another_program_is_drawn(self):
+        self.begin()
+        self.host.build("other.pmc", machine_test.OTHER)
+        self.host.done("reload", self.host.home / "other.so")
+        self.page.until("return /lamp of another program/.test(document.getElementById('r2')?.textContent)", "the other program")
+        self.state("Running")
+
+    def test_two_browsers(self):
+        self.begin()
+        self.live.log_in_again(self.page)
+        other = Browser()
+        self.addCleanup(other.close)
+        other.open(self.live.order_link())
+        self.page.click("#go")
+        other.until("return document.getElementById('state').textContent === 'Past'", "paused there, too")
+        other.click("#go")
+        self.state("Running")
 
 
 class Charts(unittest.TestCase):

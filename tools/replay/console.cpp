@@ -327,8 +327,11 @@ Result<std::string> Console::why(Words words, bool asJson) {
   if (const size_t at = text.rfind('@'); at != std::string::npos && at != 0) {
     std::string_view number = std::string_view(text).substr(at + 1);
     while (number.starts_with(' ')) number.remove_prefix(1);
-    if (const std::optional<uint64_t> part = numberOf(number)) {
-      if (std::string problem = past_.goTo(*part); !problem.empty()) return failure(problem);
+    const std::optional<uint64_t> part = numberOf(number);
+    const std::optional<int64_t> us = part ? std::nullopt : timeOf(number);
+    if (part || us) {
+      if (std::string problem = part ? past_.goTo(*part) : past_.goToTime(*us); !problem.empty())
+        return failure(problem);
       runs_.reset();
       text.resize(at);
       while (text.ends_with(' ')) text.pop_back();

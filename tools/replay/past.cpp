@@ -56,14 +56,15 @@ void Past::watch(runtime::OutsideWatch* watch) {
 
 void Past::play(size_t from) {
   base_ = from;
-  again_ = 0;
-  stage().player().setEvents(events().subspan(from));
+  again_ = resumed_ ? takeRepeats(events(), base_) : 0;
+  stage().player().setEvents(events().subspan(base_));
 }
 
 // Of the programs, the one whose state it is.
 bool Past::begin(const StatePoint& point) {
   segment_ = point.segment;
   part_ = point.part;
+  resumed_ = false;
   const uint32_t first = stageNumber_;
   const auto count = static_cast<uint32_t>(recording_.programs.size());
   for (uint32_t i = 0; i < count; ++i) {
@@ -86,15 +87,15 @@ bool Past::resume(const Moment& moment) {
   segment_ = moment.segment;
   part_ = moment.part;
   if (!playState(stage().player(), moment.events)) return false;
-  play(moment.position);
-  if (moment.repeats == 0) return true;
-  again_ = moment.repeats;
   againKind_ = moment.kind;
   againNumber_ = moment.number;
   againEvent_.resize(32);
   runtime::EventWriter writer(againEvent_);
   writer.put(Event::Part, static_cast<uint8_t>(moment.kind), moment.number);
   againEvent_.resize(writer.size());
+  resumed_ = moment.repeats == 0;
+  play(moment.position);
+  if (!resumed_) again_ = moment.repeats;
   return true;
 }
 
@@ -115,11 +116,15 @@ std::optional<Moment> Past::present() {
 
 void Past::keep() {
   if (kept_.contains(part_)) return;
-  std::optional<Moment> moment = present();
-  if (!moment) return;
-  keptBytes_ += moment->events.size();
-  kept_.emplace(part_, std::move(*moment));
-  keptOrder_.push_back(part_);
+  if (std::optional<Moment> moment = present()) keep(std::move(*moment));
+}
+
+void Past::keep(Moment moment) {
+  const uint64_t part = moment.part;
+  const size_t bytes = moment.events.size();
+  if (!kept_.emplace(part, std::move(moment)).second) return;
+  keptBytes_ += bytes;
+  keptOrder_.push_back(part);
   while (keptBytes_ > options_.keptBytes && keptOrder_.size() > 1) {
     const auto oldest = kept_.find(keptOrder_.front());
     keptBytes_ -= oldest->second.events.size();
@@ -134,12 +139,23 @@ bool Past::playAgain() {
   stage().player().setEvents(againEvent_);
   if (stage().player().play() != Played::Part) return false;
   ++part_;
+  resumed_ = false;
   takeSent();
   if (--again_ == 0) play(base_);
   return true;
 }
 
+// What comes after the events that the player has.
 bool Past::nextSegment() {
+  if (const size_t ends = position(); ends < events().size()) { // the segment has grown
+    play(ends);
+    return true;
+  }
+  if (segment_ + 1 < recording_.segments.size() && recording_.segments[segment_ + 1].continues) {
+    ++segment_;
+    play(0);
+    return true;
+  }
   for (uint32_t next = segment_ + 1; next < recording_.segments.size(); ++next) {
     const auto point = std::ranges::find(contents_.states, next, &StatePoint::segment);
     if (point == contents_.states.end()) continue;
@@ -165,11 +181,12 @@ bool Past::otherProgram() {
 bool Past::next() {
   problem_.clear();
   sent_.clear();
-  if (again_ != 0) return playAgain();
   for (;;) {
+    if (again_ != 0) return playAgain();
     switch (stage().player().play()) {
     case Played::Part:
       ++part_;
+      resumed_ = false;
       noteDifference();
       takeSent();
       return true;
@@ -185,6 +202,21 @@ bool Past::next() {
     case Played::Damaged: problem_ = fmt::format("the recording is damaged after scan {}", part_); return false;
     }
   }
+}
+
+void Past::grown() {
+  contents_.grow(recording_);
+  stages_.resize(recording_.programs.size());
+  std::erase_if(keptOrder_, [&](uint64_t part) {
+    const auto moment = kept_.find(part);
+    if (moment->second.segment >= recording_.firstSegment) return false;
+    keptBytes_ -= moment->second.events.size();
+    kept_.erase(moment);
+    return true;
+  });
+  if (segment_ >= recording_.firstSegment) return;
+  reached_ = false;
+  (void)goTo(firstPart());
 }
 
 void Past::compare(bool compares) {
@@ -234,12 +266,19 @@ std::string Past::goTo(uint64_t aim) {
     }
   }
   reached_ = false;
-  while (part_ < aim) {
+  for (uint64_t nextKept = part_ + options_.keptEvery; part_ < aim;) {
     if (!next()) return problem_.empty() ? "the recording has ended" : problem_;
-    if (aim - part_ < kNear && part_ % options_.keptEvery == 0) keep();
+    if (aim - part_ < kNear) keepAfter(nextKept);
   }
   reached_ = true;
   return {};
+}
+
+// Within a scan of several slices there is no state to be kept.
+void Past::keepAfter(uint64_t& part) {
+  if (part_ < part || !instance().atListStart()) return;
+  keep();
+  part = part_ + options_.keptEvery;
 }
 
 std::string Past::goToTime(int64_t us) {
@@ -251,45 +290,73 @@ std::string Past::goToTime(int64_t us) {
     (instance().nowUs() <= us ? low : high) = middle;
   }
   if (!begin(contents_.states[low])) return problem_;
-  while (instance().nowUs() < us && next()) {
-    if (part_ % options_.keptEvery == 0) keep();
-  }
+  uint64_t nextKept = part_ + options_.keptEvery;
+  while (instance().nowUs() < us && next()) keepAfter(nextKept);
   reached_ = problem_.empty();
   return problem_;
+}
+
+// The events from a moment on that lead to the present position.
+std::vector<uint8_t> Past::eventsFrom(const Moment& moment) const {
+  std::vector<uint8_t> all;
+  size_t position = moment.position;
+  for (uint32_t i = moment.segment; i <= segment_; ++i, position = 0) {
+    const std::span<const uint8_t> events = std::span(recording_.segments[i].events).subspan(position);
+    if (!recording_.segments[i].continues) all.clear();
+    all.insert(all.end(), events.begin(), events.end());
+  }
+  return all;
+}
+
+// The last moment up to the present position from which playing can begin: the position itself, or the beginning of the
+// scan whose slices lead to it. The position is the same afterwards.
+std::optional<Moment> Past::beginning() {
+  if (std::optional<Moment> here = present()) return here;
+  const uint64_t aim = part_;
+  const auto after = std::ranges::upper_bound(contents_.states, aim, {}, &StatePoint::part);
+  const uint64_t least = after == contents_.states.begin() ? firstPart() : std::prev(after)->part;
+  std::optional<Moment> last;
+  for (uint64_t back = 16; !last && part_ == aim; back *= 4) {
+    const uint64_t from = std::max(least, aim - std::min(aim, back));
+    if (!goTo(from).empty()) return std::nullopt;
+    last = present();
+    while (part_ < aim && next())
+      if (instance().atListStart()) last = present();
+    reached_ = part_ == aim;
+    if (from == least) break;
+  }
+  return last;
 }
 
 const Flow* Past::flow(const FlowEngine::AfterRun& afterRun) {
   const uint64_t here = part_;
   blockBefore_.clear();
   outside_.clear();
-  if (here <= firstPart() || !goTo(here - 1).empty()) {
+  std::optional<Moment> from;
+  if (here > firstPart() && goTo(here - 1).empty()) from = beginning();
+  if (!from) {
     (void)goTo(here);
     return nullptr;
   }
-  std::optional<Moment> from = present();
-  const Flow* flow = nullptr;
-  if (from) {
-    const std::span<const uint8_t> block = instance().block();
-    blockBefore_.assign(block.begin(), block.end());
-    const uint32_t before = stageNumber_;
-    keep();
-    (void)goTo(here);
-    if (stageNumber_ != before) { // the part is of another program
-      blockBefore_.clear();
-      return nullptr;
-    }
-    if (from->segment != segment_) {
-      from->segment = segment_;
-      from->position = 0;
-    }
-    const std::span<const uint8_t> events = recording_.segments[segment_].events;
-    if (from->repeats == 0)
-      outside_ = replay::outsideWrites(from->events, events.subspan(from->position), recording_.mode);
-    flow = stage().flow(*from, events, afterRun);
-  } else {
-    (void)goTo(here);
+  const std::span<const uint8_t> block = instance().block();
+  blockBefore_.assign(block.begin(), block.end());
+  keep(*from);
+  (void)goTo(here);
+  if (stageNumber_ != from->program) { // the part is of another program
+    blockBefore_.clear();
+    return nullptr;
   }
-  return flow;
+  std::vector<uint8_t> joined;
+  if (from->segment != segment_) {
+    joined = eventsFrom(*from);
+    from->position = 0;
+  }
+  const std::span<const uint8_t> next = joined.empty() ? events() : std::span<const uint8_t>(joined);
+  const uint64_t skipped = here - 1 - from->part;
+  if (from->repeats <= skipped)
+    outside_ =
+        replay::outsideWrites(from->events, next.subspan(from->position), skipped - from->repeats, recording_.mode);
+  return stage().flow(*from, next, skipped, afterRun);
 }
 
 std::string positionText(const Past& past) { return scenario::scanText(past.part(), past.instance().nowUs()); }

@@ -40,6 +40,9 @@ public:
   Past(const Past&) = delete;
   Past& operator=(const Past&) = delete;
 
+  // The recording has grown, or dropped its oldest segments. The position stays, or is the first one.
+  void grown();
+
   const Recording& recording() const { return recording_; }
   const Contents& contents() const { return contents_; }
 
@@ -57,6 +60,8 @@ public:
   std::string goTo(uint64_t part);
   // Goes to the first part after which the clock is at least at `us`, or to the last one.
   std::string goToTime(int64_t us);
+  // Keeps the present state, so that going here again is fast.
+  void keep();
   // Continues by one part. False: the recording has ended, or cannot be played further; `problem` says why.
   bool next();
   const std::string& problem() const { return problem_; } // "": the end
@@ -91,6 +96,7 @@ private:
   Stage& stage() { return *stages_[stageNumber_]; }
   std::span<const uint8_t> events() const { return recording_.segments[segment_].events; }
   size_t position() const;
+  std::vector<uint8_t> eventsFrom(const Moment& moment) const;
   Result<void> useStage(uint32_t number);
   bool begin(const StatePoint& point);
   bool resume(const Moment& moment);
@@ -98,8 +104,10 @@ private:
   bool playAgain();
   bool nextSegment();
   bool otherProgram();
-  void keep();
   std::optional<Moment> present();
+  std::optional<Moment> beginning();
+  void keep(Moment moment);
+  void keepAfter(uint64_t& part);
   void noteDifference();
   void takeSent();
 
@@ -115,6 +123,7 @@ private:
   std::string problem_;
   // Repetitions of the last part that are still to be played before the events from base_ on.
   uint64_t again_ = 0;
+  bool resumed_ = false; // the player has not run the last part itself
   std::vector<uint8_t> againEvent_;
   runtime::PartKind againKind_ = runtime::PartKind::Scan;
   uint32_t againNumber_ = 0;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "compiler/embedded_ir.h"
+#include "tools/replay/growing_recording.h"
 #include "tools/scenario/compile_step.h"
 #include "tools/scenario/statements.h"
 

@@ -4,11 +4,10 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <optional>
+#include <span>
 #include <utility>
 
-#include "compiler/embedded_ir.h"
 #include "rtlib/record/events.h"
-#include "rtlib/record/recording_reader.h"
 
 namespace rung::replay {
 namespace {
@@ -88,24 +87,27 @@ Places placesOf(std::span<const uint8_t> state) {
   return places;
 }
 
+} // namespace
+
 class Skimmer {
 public:
-  Skimmer(Contents& to, uint32_t segment, const Segment& of, const Contents::See& see)
-      : to_(to), segment_(segment), reader_(of.events), see_(see) {}
+  Skimmer(Contents& to, uint32_t segment, std::span<const uint8_t> events, const Contents::See& see)
+      : to_(to), segment_(segment), first_(to.read_), reader_(events.subspan(to.read_)), see_(see) {}
 
   void run() {
-    while (!reader_.atEnd()) {
-      const size_t at = reader_.position();
+    while (!reader_.atEnd() && !to_.unreadable_) {
+      const size_t at = position();
       const Event event = reader_.takeEvent();
       if (see_) see_(event, to_.parts);
       const bool known = take(event, at);
       if (known && reader_.good()) continue;
       add(Landmark::Kind::Damaged, fmt::format("damaged at byte {} of segment {}", at, segment_ + 1));
-      return;
+      to_.unreadable_ = true;
     }
   }
 
 private:
+  size_t position() const { return first_ + reader_.position(); }
   void add(Landmark::Kind kind, std::string text) { to_.landmarks.push_back({kind, to_.parts, std::move(text)}); }
 
   // False: there is no such event, or it cannot be here.
@@ -118,11 +120,11 @@ private:
     case Event::Part:
     case Event::Next:
       group_.reset();
-      to_.parts += whole_ ? 1 : 0;
+      to_.parts += to_.whole_ ? 1 : 0;
       break;
     case Event::Fault: add(Landmark::Kind::Fault, "the program stopped with a fault"); break;
     case Event::Anew:
-      whole_ = false;
+      to_.whole_ = false;
       add(Landmark::Kind::Start, "started, or another state loaded");
       break;
     case Event::Mark: {
@@ -131,16 +133,16 @@ private:
       return true;
     }
     case Event::Lost:
-      whole_ = false;
+      to_.whole_ = false;
       add(Landmark::Kind::Lost, "events are missing");
       break;
     default: break;
     }
-    return skipEvent(reader_, places_, event);
+    return skipEvent(reader_, to_.places_, event);
   }
   bool repeat() {
     const uint64_t count = reader_.takeNumber();
-    if (!whole_) return true;
+    if (!to_.whole_) return true;
     if (count > kMostParts - to_.parts) return false;
     to_.parts += count;
     return true;
@@ -162,26 +164,23 @@ private:
   bool state(size_t at) {
     skipBytes(reader_);
     if (!reader_.good()) return false;
-    to_.states.push_back({segment_, group_.value_or(at), reader_.position(), to_.parts});
+    to_.states.push_back({segment_, group_.value_or(at), position(), to_.parts});
     group_.reset();
-    places_.clear();
-    whole_ = true;
+    to_.places_.clear();
+    to_.whole_ = true;
     return true;
   }
 
   Contents& to_;
   uint32_t segment_;
+  size_t first_;
   EventReader reader_;
-  Places places_;
   const Contents::See& see_;
   std::optional<size_t> group_; // where the events before a state begin
-  bool whole_ = false;
 };
 
-} // namespace
-
 std::vector<OutsideWrite> outsideWrites(std::span<const uint8_t> before, std::span<const uint8_t> events,
-                                        runtime::RecordingMode mode) {
+                                        uint64_t skipped, runtime::RecordingMode mode) {
   using By = OutsideWrite::By;
   std::vector<OutsideWrite> writes;
   Places places = placesOf(before);
@@ -192,8 +191,18 @@ std::vector<OutsideWrite> outsideWrites(std::span<const uint8_t> before, std::sp
     const Event event = reader.next();
     const bool isWrite = runtime::isRun(event), isPart = event == Event::Part || event == Event::Next;
     const bool ofNext = isPart || event == Event::Repeat || event == Event::Ended || (isWrite && !within);
-    if (inPart && ofNext) return writes;
+    if (inPart && ofNext) {
+      if (skipped-- == 0) return writes;
+      writes.clear();
+      inPart = within = false;
+    }
     (void)reader.takeEvent();
+    if (event == Event::Repeat) { // parts of which nothing is recorded
+      const uint64_t count = reader.takeNumber();
+      if (skipped < count) return {};
+      skipped -= count;
+      continue;
+    }
     if (!isWrite) {
       inPart = inPart || isPart;
       within = within || event == Event::Within;
@@ -209,120 +218,49 @@ std::vector<OutsideWrite> outsideWrites(std::span<const uint8_t> before, std::sp
   return writes;
 }
 
-Contents::Contents(const Recording& recording, const See& see) {
-  for (uint32_t i = 0; i < recording.segments.size(); ++i) {
+void Contents::grow(const Recording& recording, const See& see) {
+  if (segmentParts.empty() && !recording.segments.empty()) segmentParts.push_back(0);
+  while (!segmentParts.empty()) {
+    const auto last = static_cast<uint32_t>(segmentParts.size() - 1);
+    const Segment& segment = recording.segments[last];
+    read_ = std::min(read_, segment.events.size());
+    Skimmer(*this, last, segment.events, see).run();
+    read_ = segment.events.size();
+    if (!segment.damage.empty() && !damageNoted_) {
+      landmarks.push_back({Landmark::Kind::Damaged, parts, segment.damage});
+      damageNoted_ = true;
+    }
+    if (segmentParts.size() == recording.segments.size()) break;
     segmentParts.push_back(parts);
-    Skimmer(*this, i, recording.segments[i], see).run();
-    if (const std::string& damage = recording.segments[i].damage; !damage.empty())
-      landmarks.push_back({Landmark::Kind::Damaged, parts, damage});
+    read_ = 0;
+    damageNoted_ = false;
+    if (recording.segments[last + 1].continues) continue;
+    unreadable_ = false;
+    whole_ = false;
   }
-  std::ranges::stable_sort(landmarks, {}, &Landmark::part);
+  drop(recording);
 }
 
-// ---- files -------------------------------------------------------------------------------------------------------
-
-namespace {
-
-// Something is missing after what has been read so far.
-void missing(Recording& to, std::string what) {
-  if (!to.segments.empty() && to.segments.back().damage.empty()) to.segments.back().damage = std::move(what);
+uint64_t Contents::partAt(const Recording& recording, int64_t wallUs) const {
+  for (auto i = static_cast<uint32_t>(segmentParts.size()); i-- > recording.firstSegment;) {
+    const Segment& segment = recording.segments[i];
+    if (segment.beganUs > wallUs) continue;
+    const uint64_t first = segmentParts[i], end = i + 1 < segmentParts.size() ? segmentParts[i + 1] : parts;
+    if (wallUs >= segment.writtenUs) return end;
+    const auto share =
+        static_cast<double>(wallUs - segment.beganUs) / static_cast<double>(segment.writtenUs - segment.beganUs);
+    return first + static_cast<uint64_t>(share * static_cast<double>(end - first));
+  }
+  return states.empty() ? 0 : states.front().part;
 }
 
-// The blocks of a file, in segments that each begin with a state. The last block may be cut off.
-void readSegment(runtime::SegmentReader& reader, Recording& to) {
-  Segment segment;
-  runtime::RecordedBlock block;
-  while (reader.next(block)) {
-    if (block.afterGap) {
-      if (!segment.events.empty()) to.segments.push_back(std::exchange(segment, {}));
-      missing(to, fmt::format("{}: blocks before byte {} are damaged", reader.path(), block.offset));
-    }
-    segment.events.insert(segment.events.end(), block.events.begin(), block.events.end());
-  }
-  if (!reader.ended() && reader.rest() != 0)
-    segment.damage = fmt::format("{} ends with {} bytes of a block that was cut off", reader.path(), reader.rest());
-  to.segments.push_back(std::move(segment));
-  to.problems.insert(to.problems.end(), reader.problems().begin(), reader.problems().end());
-}
-
-// The files, in the order in which they were written, whatever they are called now.
-std::vector<runtime::SegmentReader> segmentsOf(const runtime::RecordingReader& reader, Recording& to) {
-  std::vector<runtime::SegmentReader> segments;
-  std::string problem;
-  for (const runtime::SegmentFile& file : reader.segments()) {
-    std::optional<runtime::SegmentReader> segment = runtime::SegmentReader::open(reader.pathOf(file), problem);
-    if (segment)
-      segments.push_back(std::move(*segment));
-    else
-      to.problems.push_back(problem);
-  }
-  std::ranges::stable_sort(segments, {}, [](const runtime::SegmentReader& segment) {
-    return std::pair(segment.head().number, segment.head().wallUs);
-  });
-  const auto isSame = [&](const runtime::SegmentReader& a, const runtime::SegmentReader& b) {
-    const bool same = a.head().run == b.head().run && a.head().number == b.head().number;
-    if (same) to.problems.push_back(b.path() + " is a copy of " + a.path());
-    return same;
-  };
-  segments.erase(std::unique(segments.begin(), segments.end(), isSame), segments.end());
-  return segments;
-}
-
-// Whether the recording has this program now.
-bool takeProgram(const runtime::RecordingReader& reader, uint64_t hash,
-                 const std::vector<std::shared_ptr<const compiler::Compiled>>& known, Recording& to) {
-  for (const auto& program : to.programs)
-    if (program->codeHash == hash) return true;
-  for (const auto& program : known)
-    if (program->codeHash == hash) {
-      to.programs.push_back(program);
-      return true;
-    }
-  std::string problem;
-  const std::optional<std::vector<uint8_t>> file = reader.program(hash, problem);
-  if (!file) {
-    to.problems.push_back(problem);
-    return false;
-  }
-  Result<compiler::Compiled> program =
-      compiler::programOf({reinterpret_cast<const char*>(file->data()), file->size()}, hash);
-  if (!program.ok()) {
-    to.problems.push_back(fmt::format("the program {}: {}", runtime::programName(hash), program.error()));
-    return false;
-  }
-  to.programs.push_back(std::make_shared<compiler::Compiled>(std::move(program).value()));
-  return true;
-}
-
-} // namespace
-
-Result<Recording> readRecording(const std::string& path, std::vector<std::shared_ptr<const compiler::Compiled>> known) {
-  std::string problem;
-  const std::optional<runtime::RecordingReader> reader = runtime::RecordingReader::open(path, problem);
-  if (!reader) return failure(problem);
-  Recording recording;
-  std::vector<runtime::SegmentReader> segments = segmentsOf(*reader, recording);
-  const runtime::SegmentHead* last = nullptr; // of those that can be played
-  for (runtime::SegmentReader& segment : segments) {
-    const runtime::SegmentHead& head = segment.head();
-    if (last == nullptr) recording.mode = head.mode;
-    if (head.mode != recording.mode) {
-      recording.problems.push_back(segment.path() + " was recorded in another way than the segments before it");
-      continue;
-    }
-    if (!takeProgram(*reader, head.program, known, recording)) continue;
-    if (last != nullptr && last->run == head.run && last->number + 1 != head.number)
-      missing(recording,
-              last->number + 2 == head.number
-                  ? fmt::format("segment {} is missing, or cannot be read", last->number + 1)
-                  : fmt::format("segments {} to {} are missing, or cannot be read", last->number + 1, head.number - 1));
-    last = &head;
-    readSegment(segment, recording);
-  }
-  recording.problems.insert(recording.problems.end(), reader->problems().begin(), reader->problems().end());
-  if (recording.programs.empty())
-    return failure(recording.problems.empty() ? "there is nothing to read in " + path : recording.problems[0]);
-  return recording;
+void Contents::drop(const Recording& recording) {
+  std::erase_if(states, [&](const StatePoint& point) { return point.segment < recording.firstSegment; });
+  if (states.empty() || recording.firstSegment == 0) return;
+  const uint64_t first = states.front().part;
+  const auto needed = std::ranges::upper_bound(forces, first, {}, &ForceChange::part);
+  if (needed != forces.begin()) forces.erase(forces.begin(), std::prev(needed));
+  droppedLandmarks += std::erase_if(landmarks, [&](const Landmark& landmark) { return landmark.part < first; });
 }
 
 } // namespace rung::replay

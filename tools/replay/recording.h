@@ -17,12 +17,16 @@
 namespace rung::replay {
 
 struct Segment {
-  std::vector<uint8_t> events;
+  std::vector<uint8_t> events; // of a recording that grows they stay where they are
+  bool continues = false;      // the segment before it, so that no state is needed to play it after that one
+  int64_t beganUs = 0;         // since 1970: when its first and its last events were written; 0: unknown
+  int64_t writtenUs = 0;
   std::string damage; // what is missing after it; "": nothing
 };
 
 struct Recording {
   std::vector<Segment> segments;
+  uint32_t firstSegment = 0; // those before it have been dropped, and are empty
   // Compiled with marks and their modules as built (CompileRequest::marks, keepBuilt); the first one first.
   std::vector<std::shared_ptr<const compiler::Compiled>> programs;
   runtime::RecordingMode mode = runtime::RecordingMode::Bytes;
@@ -67,27 +71,39 @@ struct OutsideWrite {
   uint32_t offset = 0, count = 0; // in the block
   By by = By::Any;
 };
-// Of the first part in `events`, which follow on those of the state `before` it (Player::state).
+// Of a part in `events`, which follow on those of the state `before` them (Player::state): the first one after
+// `skipped` others.
 std::vector<OutsideWrite> outsideWrites(std::span<const uint8_t> before, std::span<const uint8_t> events,
-                                        runtime::RecordingMode mode);
+                                        uint64_t skipped, runtime::RecordingMode mode);
 
 // What a recording contains, without playing it. Parts are counted from the beginning; those that cannot be played,
 // because no state comes before them, do not count.
-struct Contents {
+class Contents {
+public:
   // `see`, if there is one, is called for each event, with the parts before it.
   using See = std::function<void(runtime::Event event, uint64_t part)>;
-  explicit Contents(const Recording& recording, const See& see = {});
+  explicit Contents(const Recording& recording, const See& see = {}) { grow(recording, see); }
+  // Adds what has been appended to the recording since, and removes what it has dropped.
+  void grow(const Recording& recording, const See& see = {});
 
   uint64_t parts = 0;
   std::vector<StatePoint> states;     // ascending
   std::vector<Landmark> landmarks;    // by part
+  uint64_t droppedLandmarks = 0;      // before the first of them
   std::vector<uint64_t> segmentParts; // by segment: parts before it
   std::vector<ForceChange> forces;    // by part
+
+  // Parts that had run at this time, about; of a recording whose segments have times.
+  uint64_t partAt(const Recording& recording, int64_t wallUs) const;
+
+private:
+  friend class Skimmer;
+  void drop(const Recording& recording);
+
+  size_t read_ = 0;          // of the events of the last segment
+  runtime::Places places_;   // that the next events refer to
+  bool whole_ = false;       // a state has come before
+  bool unreadable_ = false;  // up to the next segment that does not continue
+  bool damageNoted_ = false; // of the last segment
 };
-
-// Reads the files of a recording: a folder, or one segment (docs/recording.md). `known`: programs that it may be of, in
-// addition to those that it has. Fails if there is nothing to read, or no program for any of it.
-Result<Recording> readRecording(const std::string& path,
-                                std::vector<std::shared_ptr<const compiler::Compiled>> known = {});
-
 } // namespace rung::replay

@@ -14,6 +14,16 @@ bool playState(runtime::Player& player, std::span<const uint8_t> events) {
   return player.play() == Played::State && player.play() == Played::End;
 }
 
+uint64_t takeRepeats(std::span<const uint8_t> events, size_t& position) {
+  runtime::EventReader reader(events.subspan(position));
+  if (reader.atEnd() || reader.next() != Event::Repeat) return 0;
+  (void)reader.takeEvent();
+  const uint64_t repeats = reader.takeNumber();
+  if (!reader.good()) return 0;
+  position += reader.position();
+  return repeats;
+}
+
 Result<std::unique_ptr<Stage>> Stage::make(const compiler::Compiled& compiled, compiler::EngineKind kind,
                                            runtime::RecordingMode mode) {
   std::unique_ptr<Stage> stage(new Stage(compiled, kind, mode));
@@ -47,25 +57,31 @@ std::optional<core::Code> Stage::SlowOwner::codeFor(const runtime::Forcing&) {
   return core::Code{engine.program().chunk_fns, engine.context()};
 }
 
-const Flow* Stage::flow(const Moment& from, std::span<const uint8_t> events, const FlowEngine::AfterRun& afterRun) {
+const Flow* Stage::flow(const Moment& from, std::span<const uint8_t> events, uint64_t skipped,
+                        const FlowEngine::AfterRun& afterRun) {
   FlowEngine& engine = flowEngine();
   if (!playState(*flowPlayer_, from.events)) return nullptr;
   std::vector<uint8_t> again(64);
   EventWriter writer(again);
-  std::span<const uint8_t> next = events.subspan(from.position);
-  if (from.repeats != 0) {
-    writer.put(Event::Part, static_cast<uint8_t>(from.kind), from.number);
-    next = writer.written();
-  }
-  flowPlayer_->setEvents(next);
+  writer.put(Event::Part, static_cast<uint8_t>(from.kind), from.number);
+  size_t position = from.position;
+  uint64_t repeats = from.repeats != 0 ? from.repeats : takeRepeats(events, position);
+  if (repeats == 0) flowPlayer_->setEvents(events.subspan(position));
+  const auto playPart = [&] {
+    if (repeats != 0) {
+      flowPlayer_->setEvents(writer.written());
+      const Played played = flowPlayer_->play();
+      if (--repeats == 0) flowPlayer_->setEvents(events.subspan(position));
+      return played;
+    }
+    Played played = Played::State;
+    while (played == Played::State || played == Played::Lost) played = flowPlayer_->play();
+    return played;
+  };
+  for (; skipped != 0; --skipped)
+    if (playPart() != Played::Part) return nullptr;
   Played played = Played::End;
-  const Flow& flow = engine.observe(
-      flowPlayer_->instance(),
-      [&] {
-        do played = flowPlayer_->play();
-        while (played == Played::State || played == Played::Lost);
-      },
-      afterRun);
+  const Flow& flow = engine.observe(flowPlayer_->instance(), [&] { played = playPart(); }, afterRun);
   return played == Played::Part ? &flow : nullptr;
 }
 

@@ -29,6 +29,9 @@ struct Moment {
   std::vector<uint8_t> events; // what a player plays to have the state
 };
 
+// Takes the number of repetitions at `position` of the events, which are of a part that the player has not run itself.
+uint64_t takeRepeats(std::span<const uint8_t> events, size_t& position);
+
 // Whether the player has the state of these events now.
 bool playState(runtime::Player& player, std::span<const uint8_t> events);
 
@@ -43,8 +46,10 @@ public:
   FlowEngine& flowEngine();
   // The instance that runs rung by rung: after flow(), as that part left it.
   runtime::Instance& flowInstance() { return flowPlayer_->instance(); }
-  // Plays one part from the moment, rung by rung; `events` is its segment. Null if there is no part.
-  const Flow* flow(const Moment& from, std::span<const uint8_t> events, const FlowEngine::AfterRun& afterRun = {});
+  // Plays from the moment, rung by rung, one part after `skipped` others; `events` is its segment. Null if there is no
+  // such part.
+  const Flow* flow(const Moment& from, std::span<const uint8_t> events, uint64_t skipped,
+                   const FlowEngine::AfterRun& afterRun = {});
 
 private:
   // Code for forces.

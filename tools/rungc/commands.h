@@ -95,6 +95,7 @@ void addOpt(CommandLine& app, int& status);
 void addRun(CommandLine& app, int& status);
 void addTest(CommandLine& app, int& status);
 void addReplay(CommandLine& app, int& status);
+void addWeb(CommandLine& app, int& status);
 void addProfile(CommandLine& app, int& status);
 void addExplain(CommandLine& app, int& status);
 void addDoc(CommandLine& app, int& status);

@@ -36,6 +36,7 @@ int main(int argc, char** argv) {
   addRun(app, status);
   addTest(app, status);
   addReplay(app, status);
+  addWeb(app, status);
   addProfile(app, status);
   addWcet(app, status);
   addExplain(app, status);

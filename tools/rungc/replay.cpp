@@ -1,15 +1,19 @@
 // rungc replay: goes through the past of a program, at a prompt or by options.
-#include <csignal>
 #include <fmt/format.h>
+#include <functional>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "tools/replay/console.h"
+#include "tools/replay/growing_recording.h"
 #include "tools/replay/past.h"
 #include "tools/replay/record_run.h"
 #include "tools/rungc/commands.h"
+#include "tools/rungc/host.h"
+#include "tools/rungc/stop_signal.h"
 #include "tools/rungc/web.h"
 #include "tools/scenario/in_project.h"
 #include "tools/scenario/prompt.h"
@@ -19,6 +23,7 @@ namespace {
 
 struct ReplayOptions {
   std::string file;
+  std::string host;     // instead of the file
   SourceOptions source; // of the program, which the recording may lack
   std::optional<uint64_t> at;
   std::vector<std::string> show;
@@ -32,15 +37,6 @@ struct ReplayOptions {
   bool web = false;
   std::string listen = kDefaultListen;
 };
-
-scenario::Signal gReplaySignal = 0; // the only variable that the signal handler writes
-
-void catchSignals() {
-  struct sigaction action{};
-  action.sa_handler = [](int signal) { gReplaySignal = signal; };
-  sigaction(SIGINT, &action, nullptr); // without SA_RESTART: a prompt that reads must notice
-  sigaction(SIGTERM, &action, nullptr);
-}
 
 // A scenario is run and recorded in memory. On failure nothing, and `status` says why.
 std::optional<replay::Recording> recordingOf(const std::string& file, int& status) {
@@ -61,23 +57,35 @@ std::optional<replay::Recording> recordingOf(const std::string& file, int& statu
   return std::move(recorded.value().recording);
 }
 
-std::optional<replay::Recording> openRecording(ReplayOptions& options, int& status) {
-  if (options.file.ends_with(".scn")) return recordingOf(options.file, status);
-  std::vector<std::shared_ptr<const compiler::Compiled>> known;
+using Programs = std::vector<std::shared_ptr<const compiler::Compiled>>;
+
+// The programs that the recording may lack. On failure nothing, and `status` says why.
+std::optional<Programs> givenPrograms(const SourceOptions& source, int& status) {
+  Programs known;
+  if (source.files.empty()) return known;
   SourceManager sources;
-  if (!options.source.files.empty()) {
-    compiler::CompileRequest request;
-    request.marks = request.keepBuilt = true;
-    std::optional<compiler::Compiled> compiled = compileSources(sources, options.source, std::move(request), status);
-    if (!compiled) return std::nullopt;
-    known.push_back(std::make_shared<compiler::Compiled>(std::move(*compiled)));
-  }
-  Result<replay::Recording> recording = replay::readRecording(options.file, std::move(known));
+  compiler::CompileRequest request;
+  request.marks = request.keepBuilt = true;
+  std::optional<compiler::Compiled> compiled = compileSources(sources, source, std::move(request), status);
+  if (!compiled) return std::nullopt;
+  known.push_back(std::make_shared<compiler::Compiled>(std::move(*compiled)));
+  return known;
+}
+
+void printProblems(const replay::Recording& recording) {
+  for (const std::string& problem : recording.problems) fmt::print(stderr, "rungc: {}\n", problem);
+}
+
+std::optional<replay::Recording> openRecording(const ReplayOptions& options, int& status) {
+  if (options.file.ends_with(".scn")) return recordingOf(options.file, status);
+  std::optional<Programs> known = givenPrograms(options.source, status);
+  if (!known) return std::nullopt;
+  Result<replay::Recording> recording = replay::readRecording(options.file, std::move(*known));
   if (!recording.ok()) {
     status = environmentError(recording.error());
     return std::nullopt;
   }
-  for (const std::string& problem : recording.value().problems) fmt::print(stderr, "rungc: {}\n", problem);
+  printProblems(recording.value());
   return std::move(recording).value();
 }
 
@@ -127,22 +135,40 @@ replay::PastOptions pastOptions(const ReplayOptions& options, const replay::Reco
   return past;
 }
 
-int runReplay(ReplayOptions& options) {
+// `refresh` is called before each line of the prompt.
+int runPast(const ReplayOptions& options, replay::Past& past, const std::function<void()>& refresh) {
+  const uint64_t first = options.at.value_or(past.contents().parts);
+  if (const std::string problem = past.goTo(first); !problem.empty()) return usageError("--at: " + problem);
+  replay::Console console(past, [](const std::string& line) { fmt::print("{}\n", line); });
+  const bool asked =
+      !options.show.empty() || !options.find.empty() || !options.why.empty() || !options.exported.empty();
+  if (asked) return runAsked(options, past, console);
+  scenario::Signal& stop = catchStop();
+  if (options.web) return servePast(options.listen, past, options.source.files, [&stop] { return stop != 0; });
+  return scenario::runPrompt(console, stop, refresh) ? int{kOk} : int{kWrong};
+}
+
+int runFollowed(const ReplayOptions& options) {
+  int status = kOk;
+  std::optional<Programs> known = givenPrograms(options.source, status);
+  if (!known) return status;
+  Result<FollowedHost> host = followHost(options.host, std::move(*known));
+  if (!host.ok()) return environmentError(host.error());
+  printProblems(host.value().followed.files->recording());
+  return runPast(options, *host.value().followed.past, [&host] { host.value().refresh(); });
+}
+
+int runReplay(const ReplayOptions& options) {
   if (const std::string wrong = listenProblem(options.listen); !wrong.empty()) return usageError(wrong);
+  if (options.file.empty() == options.host.empty())
+    return usageError("replay needs either a RECORDING or --host NAME, the host that records");
+  if (!options.host.empty()) return runFollowed(options);
   int status = kOk;
   const std::optional<replay::Recording> recording = openRecording(options, status);
   if (!recording) return status;
   Result<std::unique_ptr<replay::Past>> past = replay::Past::open(*recording, pastOptions(options, *recording));
   if (!past.ok()) return environmentError(fmt::format("{}: {}", options.file, past.error()));
-  const uint64_t first = options.at.value_or(past.value()->contents().parts);
-  if (const std::string problem = past.value()->goTo(first); !problem.empty()) return usageError("--at: " + problem);
-  replay::Console console(*past.value(), [](const std::string& line) { fmt::print("{}\n", line); });
-  const bool asked =
-      !options.show.empty() || !options.find.empty() || !options.why.empty() || !options.exported.empty();
-  if (asked) return runAsked(options, *past.value(), console);
-  catchSignals();
-  if (options.web) return servePast({}, options.listen, *past.value(), [] { return gReplaySignal != 0; });
-  return scenario::runPrompt(console, gReplaySignal, [] {}) ? int{kOk} : int{kWrong};
+  return runPast(options, *past.value(), [] {});
 }
 
 } // namespace
@@ -150,24 +176,25 @@ int runReplay(ReplayOptions& options) {
 void addReplay(CommandLine& app, int& status) {
   Command command = app.add("replay", "Go through the past of a program, forwards and backwards");
   auto options = std::make_shared<ReplayOptions>();
-  command
-      .option("RECORDING", options->file,
-              "The folder of a recording, one of its segments, or a scenario, which is run and recorded")
-      .required();
+  command.option("RECORDING", options->file,
+                 "The folder of a recording, one of its segments, or a scenario, which is run and recorded");
+  Option host = command.option("--host", options->host,
+                               "Instead: the last ten minutes of this host, which runs; names are as for rungctl");
   command.option("--source", options->source.files,
                  "Sources of the program, if the recording does not have it; their hash must be that of the recording");
   command.option("--at", options->at, "Begin at the end of this scan; default: the last one, or where it failed");
   command.option("--show", options->show, "Print the values of these names there").oneValue();
   command.option("--find", options->find, "Print the scans after which this condition begins to hold");
   command.option("--most", options->most, "At most so many scans are found").showDefault();
-  command.option("--why", options->why, "NAME or NAME@SCAN: print the chain from the value back to what it came from");
+  command.option("--why", options->why,
+                 "NAME, NAME@SCAN or NAME@TIME (LAMP@12.5s): print the chain from the value back to what it came from");
   command.option("--export", options->exported,
                  "Write values of each scan to FILE.vcd or FILE.csv, or a scenario that does the same to FILE.scn");
   command.option("--from", options->from, "First scan of --export");
   command.option("--to", options->to, "Last scan of --export");
   command.option("--watch", options->watch, "Names for --export; default: all that the rungs use").oneValue();
   command.flag("--json", options->json, "JSON from --find and --why");
-  Option web = command.flag("--web", options->web, "Show it in a browser: prints a link");
+  Option web = command.flag("--web", options->web, "Show it in a browser: prints a link").excludes(host);
   command.option("--listen", options->listen, "Address for --web, such as 8080 or 192.168.0.5:8080")
       .needs(web)
       .showDefault();

@@ -1,10 +1,14 @@
 // The live page (see web.h).
 #include "tools/rungc/web.h"
 
+#include <cstdio>
 #include <fmt/format.h>
+#include <memory>
+#include <utility>
 
-#include "tools/view/drawn_program.h"
+#include "tools/rungc/drawn_sources.h"
 #include "tools/web/access.h"
+#include "tools/web/machine_source.h"
 #include "tools/web/page.h"
 #include "tools/web/past_source.h"
 #include "tools/web/server.h"
@@ -14,32 +18,24 @@
 namespace rung::rungc {
 namespace {
 
-// The program as the page shows it, read again from its files; fails if they have been changed.
-Result<web::ShownProgram> shownProgram(const std::string& title, const compiler::Compiled& compiled) {
-  SourceManager sources;
-  const Result<std::vector<FileId>> files =
-      compiler::addFiles(sources, compiled.module->files, compiled.options.config);
-  if (!files.ok()) return files.failure();
-  frontend::CompileOptions compile = compiled.options;
-  compile.configPlaces.clear(); // they are positions in the sources of the first compilation
-  Diagnostics diagnostics;
-  const std::string changed = fmt::format("{} was changed while it was compiled", compiled.module->files.front());
-  auto drawing = view::drawnProgram(sources, files.value(), *compiled.dialect, compile, diagnostics);
-  if (!drawing) return failure(changed);
-  if (!title.empty()) drawing->title = title;
-  return web::ShownProgram(std::move(*drawing));
+using Shown = std::shared_ptr<const web::ShownProgram>;
+
+// What was compiled in this process knows its files and their configuration.
+web::PastSource::Draw drawFrom(const std::vector<std::string>& files) {
+  return [files](const compiler::Compiled& program) {
+    return program.files.empty() ? drawnFrom(program, files) : drawnAgain(program);
+  };
 }
 
-int serve(const std::string& listen, const web::ShownProgram& program, web::PacedSource& source,
-          const std::function<bool()>& ended) {
-  web::Page page(program, source);
+int serve(const std::string& listen, web::PacedSource& source, const std::function<bool()>& ended) {
+  web::Page page(source);
   Result<std::unique_ptr<web::Server>> server =
       web::Server::start(*web::parseListen(listen), [&page](const web::Request& request, web::Server& by) {
         return page.respond(request, [&by] { return by.newLink(); });
       });
   if (!server.ok()) return environmentError(server.error());
   fmt::print("{}\n", server.value()->newLink());
-  std::fflush(stdout);
+  if (std::fflush(stdout) != 0) return kOk; // CommandLine::run reports it; without the link there is no page
   source.run(ended);
   return kOk;
 }
@@ -55,18 +51,32 @@ std::string listenProblem(const std::string& listen) {
 int serveSession(const std::string& title, const std::string& listen, const compiler::Compiled& compiled,
                  scenario::Session& session, replay::SessionPast& past, replay::FlowEngine& engine,
                  const std::function<bool()>& ended) {
-  const Result<web::ShownProgram> program = shownProgram(title, compiled);
+  Result<web::ShownProgram> program = drawnAgain(compiled, title);
   if (!program.ok()) return environmentError(program.error());
-  web::SessionSource source(session, past, program.value(), engine);
-  return serve(listen, program.value(), source, ended);
+  const web::Drawn drawn{1, std::make_shared<const web::ShownProgram>(std::move(program).value())};
+  web::SessionSource source(session, past, drawn, engine);
+  return serve(listen, source, ended);
 }
 
-int servePast(const std::string& title, const std::string& listen, replay::Past& past,
+int servePast(const std::string& listen, replay::Past& past, const std::vector<std::string>& files,
               const std::function<bool()>& ended) {
-  const Result<web::ShownProgram> program = shownProgram(title, past.compiled());
+  const web::PastSource::Draw draw = drawFrom(files);
+  Result<web::ShownProgram> program = draw(past.compiled());
   if (!program.ok()) return environmentError(program.error());
-  web::PastSource source(past, program.value());
-  return serve(listen, program.value(), source, ended);
+  web::PastSource source(past, std::make_shared<const web::ShownProgram>(std::move(program).value()), draw);
+  return serve(listen, source, ended);
+}
+
+int serveMachine(const std::string& listen, FollowedHost host, const std::vector<std::string>& files,
+                 const std::function<bool()>& ended) {
+  const web::PastSource::Draw draw = drawFrom(files);
+  Result<web::ShownProgram> program = draw(host.followed.past->compiled());
+  if (!program.ok()) return environmentError(program.error());
+  host.client.reset(); // a host serves a limited number of connections
+  web::HostLink link(host.name, files);
+  web::MachineSource source(link, std::move(host.followed),
+                            std::make_shared<const web::ShownProgram>(std::move(program).value()), draw);
+  return serve(listen, source, ended);
 }
 
 } // namespace rung::rungc

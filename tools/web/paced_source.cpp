@@ -37,6 +37,9 @@ void PacedSource::run(const std::function<bool()>& ended) {
   std::unique_lock lock(mutex_);
   while (!ended()) {
     changed = takeTasks(lock) || changed;
+    lock.unlock();
+    changed = look() || changed;
+    lock.lock();
     if (running_ && Clock::now() >= due) {
       lock.unlock();
       const int64_t before = nowUs();
@@ -47,7 +50,8 @@ void PacedSource::run(const std::function<bool()>& ended) {
       lock.lock();
     }
     const Clock::time_point now = Clock::now();
-    if (stale_ || (changed && now - pictured >= kPictureEvery)) {
+    const bool isDue = changed && !followers_.empty(); // otherwise no page looks
+    if (stale_ || (isDue && now - pictured >= kPictureEvery)) {
       stale_ = changed = false;
       const std::set<std::string> names = followed();
       lock.unlock();
@@ -56,9 +60,9 @@ void PacedSource::run(const std::function<bool()>& ended) {
       lock.lock();
       continue;
     }
-    Clock::time_point until = now + 100ms;
+    Clock::time_point until = now + lookEvery();
     if (running_) until = std::min(until, due);
-    if (changed) until = std::min(until, pictured + kPictureEvery);
+    if (isDue) until = std::min(until, pictured + kPictureEvery);
     work_.wait_until(lock, until, [&] { return stale_ || !tasks_.empty(); });
   }
   ended_ = true;
@@ -84,6 +88,7 @@ bool PacedSource::takeTasks(std::unique_lock<std::mutex>& lock) {
 void PacedSource::publish(const std::set<std::string>& names) {
   auto made = std::make_shared<Picture>();
   fill(*made, names);
+  made->mayWrite = mayWrite();
   const std::lock_guard lock(mutex_);
   made->revision = picture_ == nullptr ? 1 : picture_->revision + 1;
   made->lastEvent = lastEvent_;
@@ -92,8 +97,8 @@ void PacedSource::publish(const std::set<std::string>& names) {
   news_.notify_all();
 }
 
-void PacedSource::compareMessages(const runtime::Instance& instance, const nc::Control& control, uint64_t scan) {
-  if (control.shows(instance, messages_)) return;
+bool PacedSource::compareMessages(const runtime::Instance& instance, const nc::Control& control, uint64_t scan) {
+  if (control.shows(instance, messages_)) return false;
   std::vector<nc::ShownMessage> now = control.messages(instance);
   const auto isIn = [](const std::vector<nc::ShownMessage>& list, const nc::ShownMessage& one) {
     return std::ranges::find(list, one) != list.end();
@@ -103,6 +108,7 @@ void PacedSource::compareMessages(const runtime::Instance& instance, const nc::C
   for (const nc::ShownMessage& one : now)
     if (!isIn(messages_, one)) log("message", fmt::format("{} {}", numberOf(one), one.text), scan, instance.nowUs());
   messages_ = std::move(now);
+  return true;
 }
 
 void PacedSource::log(std::string kind, std::string text, uint64_t scan, int64_t us) {
@@ -267,9 +273,10 @@ std::shared_ptr<const Picture> PacedSource::picture(const std::string& page, con
   std::unique_lock lock(mutex_);
   if (followers_.size() >= kMostPages && !followers_.contains(page)) (void)followed();
   if (followers_.size() < kMostPages || followers_.contains(page)) {
-    Follower& follower = followers_[page];
+    const auto [at, isNew] = followers_.try_emplace(page);
+    Follower& follower = at->second;
     follower.asked = Clock::now();
-    if (follower.names != names) {
+    if (isNew || follower.names != names) {
       follower.names = names;
       stale_ = true;
       work_.notify_all();
@@ -278,6 +285,11 @@ std::shared_ptr<const Picture> PacedSource::picture(const std::string& page, con
   const auto isNewer = [&] { return ended_ || (!stale_ && picture_ != nullptr && picture_->revision > after); };
   news_.wait_for(lock, wait, isNewer);
   return picture_;
+}
+
+Drawn PacedSource::drawn() {
+  const std::lock_guard lock(mutex_);
+  return picture_ == nullptr ? drawn_ : picture_->drawn;
 }
 
 std::vector<Event> PacedSource::events(uint64_t after) {

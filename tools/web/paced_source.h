@@ -47,11 +47,13 @@ private:
 
 class PacedSource : public Source {
 public:
+  explicit PacedSource(Drawn first) : drawn_(std::move(first)) {}
   // Runs at the pace of the program's clock until `ended`, which is asked often, returns true.
   void run(const std::function<bool()>& ended);
 
   std::shared_ptr<const Picture> picture(const std::string& page, const std::vector<std::string>& names, uint64_t after,
                                          std::chrono::milliseconds wait) override;
+  Drawn drawn() override;
   Result<std::string> execute(const Order& order) override;
   std::vector<Event> events(uint64_t after) override;
   Result<Why> why(const std::string& name) override;
@@ -63,6 +65,10 @@ public:
 protected:
   // All of the following are called by the thread of run().
 
+  // Looks for what has come from elsewhere; called again and again, at least after `lookEvery`. Whether there is
+  // something new to show.
+  virtual bool look() { return false; }
+  virtual std::chrono::milliseconds lookEvery() const { return std::chrono::milliseconds(100); }
   // Continues by a scan. False: there is none, and the source pauses.
   virtual bool nextScan() = 0;
   virtual int64_t nowUs() const = 0;
@@ -84,8 +90,8 @@ protected:
   virtual void searchPast(replay::Condition& condition, const std::string& text) { (void)condition, (void)text; }
 
   void log(std::string kind, std::string text, uint64_t scan, int64_t us);
-  // Logs which messages have come and gone since the last call.
-  void compareMessages(const runtime::Instance& instance, const nc::Control& control, uint64_t scan);
+  // Logs which messages have come and gone since the last call. Whether there are any.
+  bool compareMessages(const runtime::Instance& instance, const nc::Control& control, uint64_t scan);
   // Logs whether the condition of the trigger has begun to hold in the newest scan, which is shown.
   void checkTrigger();
   // Of the names of conditions.
@@ -124,6 +130,7 @@ private:
   std::condition_variable news_; // for pages: a picture
   std::condition_variable work_; // for run(): tasks, a page that looks at something else
   std::shared_ptr<const Picture> picture_;
+  const Drawn drawn_;                         // until there is a picture
   std::map<std::string, Follower> followers_; // by page
   bool stale_ = true;                         // a page follows what the picture does not have
   std::deque<Task> tasks_;

@@ -91,7 +91,7 @@ Response doneOf(const Result<std::string>& done) {
 }
 
 const char* nameOf(RunState state) {
-  constexpr const char* kNames[] = {"running", "paused", "past", "fault", "lost"};
+  constexpr const char* kNames[] = {"running", "paused", "past", "fault", "stopped", "lost"};
   return kNames[static_cast<size_t>(state)];
 }
 
@@ -99,66 +99,73 @@ const char* nameOf(RunState state) {
 
 // Heights are those of rows, from which the page knows where each of them is.
 Response Page::index(const Request& request) const {
+  const Drawn drawn = source_.drawn();
+  const ShownProgram& program = *drawn.program;
   const bool narrow = numberOf(request, "narrow") != 0;
   json heights = json::array(), numbers = json::array();
   std::string kinds;
-  for (uint32_t i = 0; i < program_.rows().size(); ++i) {
-    const Row& row = program_.rows()[i];
-    heights.push_back(program_.heightOf(i, narrow));
+  for (uint32_t i = 0; i < program.rows().size(); ++i) {
+    const Row& row = program.rows()[i];
+    heights.push_back(program.heightOf(i, narrow));
     numbers.push_back(row.number);
     kinds += "fmscrd"[static_cast<size_t>(row.kind)];
   }
   json tree = json::array();
-  for (const view::ContentsEntry& entry : program_.contents())
+  for (const view::ContentsEntry& entry : program.contents())
     tree.push_back({entry.level, entry.block, entry.text, entry.title, entry.firstRung, entry.lastRung});
-  return jsonOf({{"title", program_.title()},
-                 {"control", program_.control()},
+  return jsonOf({{"program", drawn.number},
+                 {"title", program.title()},
+                 {"control", program.control()},
                  {"kinds", kinds},
                  {"heights", std::move(heights)},
                  {"numbers", std::move(numbers)},
                  {"tree", std::move(tree)},
                  {"live", source_.isLive()},
-                 {"mayWrite", source_.mayWrite()}});
+                 {"machine", source_.isMachine()}});
 }
 
-Response Page::rungs(const Request& request) const {
-  const auto all = static_cast<uint64_t>(program_.rows().size());
+Response Page::rungs(const Request& request, const ShownProgram& program) {
+  const auto all = static_cast<uint64_t>(program.rows().size());
   const uint64_t first = std::min(numberOf(request, "from"), all);
   const uint64_t end = std::min({numberOf(request, "to"), all, first + kMostRows});
   const bool narrow = numberOf(request, "narrow") != 0;
   json rows = json::array();
   for (auto row = static_cast<uint32_t>(first); row < end; ++row)
-    rows.push_back({row, program_.html(row, narrow), program_.nameOf(row)});
+    rows.push_back({row, program.html(row, narrow), program.nameOf(row)});
   return jsonOf(rows);
 }
 
 // What a search looks at.
-Response Page::names() const {
+Response Page::names(const ShownProgram& program) {
   json titles = json::array();
-  for (uint32_t row = 0; row < program_.rows().size(); ++row) titles.push_back(program_.titleOf(row));
-  return jsonOf({{"names", namesOf(program_)}, {"titles", std::move(titles)}});
+  for (uint32_t row = 0; row < program.rows().size(); ++row) titles.push_back(program.titleOf(row));
+  return jsonOf({{"names", namesOf(program)}, {"titles", std::move(titles)}});
 }
 
 // A picture has the power of the rows and the values of the names that are asked for, all of one scan.
 Response Page::picture(const Request& request) {
-  const auto all = static_cast<uint64_t>(program_.rows().size());
+  const Drawn drawn = source_.drawn();
+  const auto all = static_cast<uint64_t>(drawn.program->rows().size());
   const uint64_t first = std::min(numberOf(request, "from"), all);
-  const uint64_t end = std::min({numberOf(request, "to"), all, first + kMostRows});
+  uint64_t end = std::min({numberOf(request, "to"), all, first + kMostRows});
   std::vector<std::string> names = wordsOf(request, kMostNames);
   const size_t watched = names.size();
   std::vector<std::pair<uint64_t, ShownProgram::ShownValue>> shown;
   for (uint64_t row = first; row < end; ++row)
-    for (ShownProgram::ShownValue& value : program_.values(static_cast<uint32_t>(row))) {
+    for (ShownProgram::ShownValue& value : drawn.program->values(static_cast<uint32_t>(row))) {
       names.push_back(value.name);
       shown.emplace_back(row, std::move(value));
     }
   const std::string page = queryValue(request.query, "page").substr(0, kMostPageName);
   const auto now = source_.picture(page, names, numberOf(request, "after"), kWait);
   if (now == nullptr) return jsonOf({{"revision", 0}});
+  // Of another program, the page asks for its rungs first.
+  const ShownProgram& program = *now->drawn.program;
+  if (now->drawn.number != drawn.number) end = first;
   json rows = json::object(), values = json::object(), texts = json::object(), forces = json::array();
   for (uint64_t row = first; row < end; ++row)
-    if (program_.rows()[row].elements > 0)
-      rows[std::to_string(row)] = program_.flow(static_cast<uint32_t>(row), now->elements);
+    if (program.rows()[row].elements > 0)
+      rows[std::to_string(row)] = program.flow(static_cast<uint32_t>(row), now->elements);
   for (size_t i = 0; i < watched; ++i)
     if (const auto value = now->values.find(names[i]); value != now->values.end()) values[names[i]] = value->second;
   for (const auto& [row, value] : shown)
@@ -171,7 +178,11 @@ Response Page::picture(const Request& request) {
   return jsonOf({{"revision", now->revision},
                  {"scan", now->scan},
                  {"us", now->us},
+                 {"program", now->drawn.number},
                  {"state", nameOf(now->state)},
+                 {"follows", now->follows},
+                 {"notice", now->notice},
+                 {"mayWrite", now->mayWrite},
                  {"fault", now->fault},
                  {"first", now->firstScan},
                  {"last", now->lastScan},
@@ -243,7 +254,8 @@ Response Page::order(const Request& request) {
       {"run", Order::Kind::Run},         {"pause", Order::Kind::Pause},
       {"step", Order::Kind::Step},       {"seek", Order::Kind::Seek},
       {"set", Order::Kind::Set},         {"force", Order::Kind::Force},
-      {"unforce", Order::Kind::Unforce}, {"statement", Order::Kind::Statement}};
+      {"unforce", Order::Kind::Unforce}, {"mark", Order::Kind::Mark},
+      {"reload", Order::Kind::Reload},   {"statement", Order::Kind::Statement}};
   const std::string what = word("do");
   if (what == "trigger") return doneOf(source_.setTrigger(word("name")));
   const bool acknowledges = what == "acknowledge";
@@ -266,14 +278,14 @@ Response Page::respond(const Request& request, const std::function<std::string()
     return textOf(404, "nothing is posted there");
   }
   if (request.path == "/api/index") return index(request);
-  if (request.path == "/api/rungs") return rungs(request);
-  if (request.path == "/api/names") return names();
+  if (request.path == "/api/rungs") return rungs(request, *source_.drawn().program);
+  if (request.path == "/api/names") return names(*source_.drawn().program);
   if (request.path == "/api/picture") return picture(request);
   if (request.path == "/api/events") return events(request);
   if (request.path == "/api/trace") return trace(request);
   if (request.path == "/api/shares") return shares(request);
   if (request.path == "/api/why") return why(request);
-  if (request.path == "/style.css") return {200, "text/css", styleSheet(program_.drawing())};
+  if (request.path == "/style.css") return {200, "text/css", styleSheet(source_.drawn().program->drawing())};
   const std::string_view name = request.path == "/" ? "index.html" : std::string_view(request.path).substr(1);
   const auto file = std::ranges::find(appFiles(), name, &text::EmbeddedFile::name);
   if (file == appFiles().end()) return textOf(404, "there is no such page");

@@ -4,23 +4,22 @@
 #include <string>
 
 #include "tools/web/server.h"
-#include "tools/web/shown_program.h"
 #include "tools/web/source.h"
 
 namespace rung::web {
 
 class Page {
 public:
-  // Both must outlive it.
-  Page(const ShownProgram& program, Source& source) : program_(program), source_(source) {}
+  // The source must outlive it.
+  explicit Page(Source& source) : source_(source) {}
 
   // `newLink`: see Server. Any thread.
   Response respond(const Request& request, const std::function<std::string()>& newLink);
 
 private:
   Response index(const Request& request) const;
-  Response rungs(const Request& request) const;
-  Response names() const;
+  static Response rungs(const Request& request, const ShownProgram& program);
+  static Response names(const ShownProgram& program);
   Response picture(const Request& request);
   Response events(const Request& request);
   Response why(const Request& request);
@@ -28,7 +27,6 @@ private:
   Response shares(const Request& request);
   Response order(const Request& request);
 
-  const ShownProgram& program_;
   Source& source_;
 };
 

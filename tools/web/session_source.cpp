@@ -55,10 +55,11 @@ void observeForces(scenario::Session& session, replay::FlowEngine& engine) {
   static_cast<ir::InterpEngine&>(engine.engine()).setObserver(std::make_unique<HeldBits>(session.instance()));
 }
 
-SessionSource::SessionSource(scenario::Session& session, replay::SessionPast& past, const ShownProgram& program,
+SessionSource::SessionSource(scenario::Session& session, replay::SessionPast& past, const Drawn& drawn,
                              replay::FlowEngine& engine)
-    : session_(session), past_(past), engine_(engine), states_(engine, program),
-      places_(program, session.instance(), session.nc(), states_), scan_(session.scans()), last_(scan_) {
+    : PacedSource(drawn), session_(session), past_(past), engine_(engine), drawn_(drawn),
+      states_(engine, *drawn.program), places_(*drawn.program, session.instance(), session.nc(), states_),
+      scan_(session.scans()), last_(scan_) {
   keepMoment();
 }
 
@@ -144,6 +145,7 @@ std::string SessionSource::valueOf(const std::string& name) const {
 }
 
 void SessionSource::fill(Picture& picture, const std::set<std::string>& names) {
+  picture.drawn = drawn_;
   picture.scan = scan_;
   picture.us = session_.nowUs();
   const bool faulted = session_.instance().faulted();
@@ -151,6 +153,7 @@ void SessionSource::fill(Picture& picture, const std::set<std::string>& names) {
                   : faulted     ? RunState::Fault
                   : running_    ? RunState::Running
                                 : RunState::Paused;
+  picture.follows = picture.state == RunState::Running;
   if (faulted) picture.fault = session_.instance().faultText();
   picture.elements = states_.of(engine_.flow(), session_.instance().block());
   for (const std::string& name : names)
@@ -195,6 +198,8 @@ Result<std::string> SessionSource::carryOut(const Order& order) {
   case Order::Kind::Set: return write(fmt::format("set {} {}", name, scenario::asWord(order.value)), "set");
   case Order::Kind::Force: return write(fmt::format("force {} {}", name, scenario::asWord(order.value)), "force");
   case Order::Kind::Unforce: return write(name.empty() ? "unforce" : "unforce " + name, "force");
+  case Order::Kind::Mark:
+  case Order::Kind::Reload: return failure("only a machine can do that");
   case Order::Kind::Statement: return write(order.name, "statement");
   }
   return failure("an unknown order");

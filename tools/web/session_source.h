@@ -20,8 +20,7 @@ void observeForces(scenario::Session& session, replay::FlowEngine& engine);
 class SessionSource final : public PacedSource {
 public:
   // All arguments must outlive it. The session has started; observeForces was called with both.
-  SessionSource(scenario::Session& session, replay::SessionPast& past, const ShownProgram& program,
-                replay::FlowEngine& engine);
+  SessionSource(scenario::Session& session, replay::SessionPast& past, const Drawn& drawn, replay::FlowEngine& engine);
 
   bool isLive() const override { return true; }
   std::string mayWrite() const override { return {}; }
@@ -67,6 +66,7 @@ private:
   scenario::Session& session_;
   replay::SessionPast& past_;
   replay::FlowEngine& engine_;
+  const Drawn drawn_;
   ElementStates states_;
   const NamePlaces places_;
   uint64_t scan_ = 0;          // the one that is shown

@@ -9,10 +9,24 @@
 #include <vector>
 
 #include "ir/support/result.h"
+#include "tools/web/shown_program.h"
 
 namespace rung::web {
 
-enum class RunState : uint8_t { Running, Paused, Past, Fault, Lost };
+enum class RunState : uint8_t {
+  Running,
+  Paused,
+  Past,
+  Fault,
+  Stopped, // by the operator
+  Lost,    // the machine cannot be reached
+};
+
+// The program that is shown.
+struct Drawn {
+  uint32_t number = 0; // other for another program
+  std::shared_ptr<const ShownProgram> program;
+};
 
 struct ShownMessage {
   std::string number; // as operators know it
@@ -30,9 +44,13 @@ struct Picture {
   uint64_t revision = 0; // larger in every picture
   uint64_t scan = 0;
   int64_t us = 0; // on the program's clock
+  Drawn drawn;
   RunState state = RunState::Running;
+  bool follows = false; // it continues by itself
   std::string fault;
-  std::vector<uint8_t> elements;             // by element of the program (ElementState)
+  std::string notice;            // what people must know besides, such as that the machine cannot be reached
+  std::string mayWrite;          // as Source::mayWrite
+  std::vector<uint8_t> elements; // by element of the program (ElementState)
   std::map<std::string, std::string> values; // of what is followed: by name
   std::vector<ShownMessage> messages;
   std::vector<ForcedCell> forces;
@@ -44,10 +62,10 @@ struct Picture {
 
 // What a page wants done.
 struct Order {
-  enum class Kind : uint8_t { Run, Pause, Step, Seek, Set, Force, Unforce, Statement };
+  enum class Kind : uint8_t { Run, Pause, Step, Seek, Set, Force, Unforce, Mark, Reload, Statement };
   Kind kind = Kind::Pause;
   int64_t scans = 0; // Step: forwards or backwards; Seek: to this scan
-  std::string name;  // Set, Force, Unforce; Statement: the whole line
+  std::string name;  // Set, Force, Unforce; Mark: the text; Statement: the whole line
   std::string value;
 };
 
@@ -98,6 +116,8 @@ public:
   // page, which follows the values of `names`; a page that has not asked for some seconds follows nothing.
   virtual std::shared_ptr<const Picture> picture(const std::string& page, const std::vector<std::string>& names,
                                                  uint64_t after, std::chrono::milliseconds wait) = 0;
+  // The program of the newest picture.
+  virtual Drawn drawn() = 0;
   // What was done, in words; fails if it was not.
   virtual Result<std::string> execute(const Order& order) = 0;
   // Entries after the one with this number, oldest first; at most kMostEvents are kept.
@@ -117,6 +137,8 @@ public:
   virtual Result<std::string> acknowledge() = 0;
   // Whether there is a newest scan that becomes older: false for what has ended.
   virtual bool isLive() const = 0;
+  // Whether it is a machine, which runs on whatever is shown.
+  virtual bool isMachine() const { return false; }
   // Whether pages may write: "" or why not.
   virtual std::string mayWrite() const = 0;
 };

@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "ir/support/temporary_folder.h"
+#include "tools/replay/growing_recording.h"
 #include "tools/replay/past.h"
 #include "tools/replay/record_run.h"
 #include "tools/scenario/in_project.h"

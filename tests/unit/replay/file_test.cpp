@@ -15,6 +15,7 @@
 #include "rung/runtime.hpp"
 #include "tests/unit/replay/recorded_host.h"
 #include "tools/replay/console.h"
+#include "tools/replay/growing_recording.h"
 #include "tools/replay/past.h"
 #include "tools/replay/record_run.h"
 #include "tools/replay/scenario_file.h"

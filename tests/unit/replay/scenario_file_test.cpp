@@ -5,6 +5,7 @@
 
 #include "ir/support/temporary_folder.h"
 #include "tests/unit/replay/recorded_host.h"
+#include "tools/replay/growing_recording.h"
 #include "tools/replay/past.h"
 #include "tools/replay/record_run.h"
 #include "tools/replay/scenario_file.h"

@@ -15,6 +15,7 @@
 #include "tests/unit/web/drawing.h"
 #include "tools/replay/past.h"
 #include "tools/replay/record_run.h"
+#include "tools/replay/session_past.h"
 #include "tools/scenario/compile_step.h"
 #include "tools/scenario/runner.h"
 #include "tools/scenario/statements.h"
@@ -75,14 +76,16 @@ compiler::Compiled compiled(const std::string& path) {
 // A program on the interpreter, paused at its beginning.
 struct Live {
   explicit Live(const std::string& path)
-      : program(compiled(path)), flow(program), session(""), shown(drawingOf(program)) {
+      : program(compiled(path)), flow(program), session(""),
+        shown{1, std::make_shared<const ShownProgram>(drawingOf(program))} {
     session.addEngine(flow.engine());
     observeForces(session, flow);
     EXPECT_TRUE(session.start().empty());
-    explainer = std::make_unique<scenario::Explainer>(session, program.uses.get());
-    session.addObserver(*explainer);
+    past = std::make_unique<replay::SessionPast>(
+        session, [this] { return Result<const compiler::Compiled*>(&program); }, nullptr);
+    session.addObserver(*past);
     session.setUnattended();
-    source = std::make_unique<SessionSource>(session, *explainer, shown, flow);
+    source = std::make_unique<SessionSource>(session, *past, shown, flow);
     page = std::make_unique<Running>(*source);
     page->order(Order::Kind::Pause);
     first = page->picture().scan;
@@ -91,8 +94,8 @@ struct Live {
   compiler::Compiled program;
   replay::FlowEngine flow;
   scenario::Session session;
-  ShownProgram shown;
-  std::unique_ptr<scenario::Explainer> explainer;
+  Drawn shown;
+  std::unique_ptr<replay::SessionPast> past;
   std::unique_ptr<SessionSource> source;
   std::unique_ptr<Running> page;
   uint64_t first = 0; // the scan at which it was paused
@@ -204,11 +207,11 @@ TEST(Live, WhyAfterATrace) {
   Live live(kToggle);
   live.page->order(Order::Kind::Step, 100);
   const std::string before = whyOf(*live.source, "SAME");
-  EXPECT_NE(before.find(fmt::format("changed in scan {}", live.first + 100)), std::string::npos) << before;
+  EXPECT_NE(before.find(fmt::format("since scan {},", live.first + 100)), std::string::npos) << before;
   ASSERT_TRUE(live.source->trace({"X"}, 50, 0).ok());
   EXPECT_EQ(whyOf(*live.source, "SAME"), before);
   live.page->order(Order::Kind::Seek, static_cast<int64_t>(live.first + 90));
-  EXPECT_NE(whyOf(*live.source, "SAME").find(fmt::format("changed in scan {}", live.first + 90)), std::string::npos)
+  EXPECT_NE(whyOf(*live.source, "SAME").find(fmt::format("since scan {},", live.first + 90)), std::string::npos)
       << whyOf(*live.source, "SAME");
 }
 
@@ -229,8 +232,10 @@ TEST(Recorded, ForcesAndTriggers) {
   auto past = replay::Past::open(recorded.value().recording, {.engine = compiler::EngineKind::Interp});
   ASSERT_TRUE(past.ok()) << past.error();
   ASSERT_EQ(past.value()->goTo(past.value()->firstPart()), "");
-  const ShownProgram shown(drawingOf(past.value()->compiled()));
-  PastSource source(*past.value(), shown);
+  const auto draw = [](const compiler::Compiled& program) {
+    return Result<ShownProgram>(ShownProgram(drawingOf(program)));
+  };
+  PastSource source(*past.value(), std::make_shared<const ShownProgram>(drawingOf(past.value()->compiled())), draw);
   Running page(source);
   page.order(Order::Kind::Seek, 15);
   const Picture forced = page.picture();

@@ -19,6 +19,7 @@
 
 #include "compiler/embedded_ir.h"
 #include "tools/bench/machines/recorder.h"
+#include "tools/replay/growing_recording.h"
 #include "tools/replay/past.h"
 #include "tools/scenario/runner.h"
 

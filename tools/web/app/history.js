@@ -4,7 +4,7 @@ import {button, link, make} from './panels.js';
 
 const kMost = 1000;  // entries that are kept, as the server does
 const kKinds = {message: 'message', gone: 'message gone', acknowledged: 'acknowledged', fault: 'fault', trigger: 'trigger', set: 'set',
-  force: 'force', statement: 'operator', mark: 'mark'};
+  force: 'force', statement: 'operator', mark: 'mark', begin: 'beginning', lost: 'missing'};
 
 export function timeText(us) {
   const s = us / 1e6, h = Math.floor(s / 3600), m = Math.floor(s / 60) % 60;

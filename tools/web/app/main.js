@@ -9,7 +9,7 @@ import {History, timeText} from './history.js';
 import {Detail, make, Terminals, Watch, Writer} from './panels.js';
 
 const by = id => document.getElementById(id);
-const kStates = {running: 'Running', paused: 'Paused', past: 'Past', fault: 'Fault', lost: 'No connection'};
+const kStates = {running: 'Running', paused: 'Paused', past: 'Past', fault: 'Fault', stopped: 'Stopped', lost: 'No connection'};
 
 let picture = null;       // the one that is drawn
 let seeking = null;       // the scan that was last asked for, while an answer is awaited
@@ -46,8 +46,8 @@ async function seek(scan) {
 }
 
 const step = scans => order({do: 'step', scans});
-const running = () => picture && picture.state === 'running';
-const go = () => order({do: running() ? 'pause' : 'run'});
+const follows = () => picture && picture.follows;
+const go = () => order({do: follows() ? 'pause' : 'run'});
 
 function setTheme(next) {
   if (next) document.documentElement.dataset.theme = next; else delete document.documentElement.dataset.theme;
@@ -141,18 +141,21 @@ async function start() {
   };
 
   function draw(next) {
+    if (next.program !== index.program) return location.reload(); // another program is shown from now on
     picture = next;
     by('state').textContent = kStates[next.state];
     by('status').dataset.state = next.state;
     by('pill').title = next.fault;
+    by('notice').hidden = !next.notice;
+    if (by('notice').textContent !== next.notice) by('notice').textContent = next.notice;
     by('scan').textContent = next.scan;
     by('time').textContent = timeText(next.us);
-    by('go').textContent = next.state === 'running' ? 'Pause' : !index.live ? 'Play' : next.scan < next.last ? 'To now' : 'Run';
+    by('go').textContent = next.follows ? 'Pause' : !index.live ? 'Play' : index.machine || next.scan < next.last ? 'To now' : 'Run';
     by('back').disabled = next.scan <= next.first;
     const slider = by('slider');
     slider.min = next.first;
     slider.max = next.last;
-    if (seeking === null && document.activeElement !== slider || running()) slider.value = next.scan;
+    if (seeking === null && document.activeElement !== slider || follows()) slider.value = next.scan;
     slider.setAttribute('aria-valuetext', `scan ${next.scan}, ${timeText(next.us)}`);
     by('forced').hidden = !next.forces.length;
     by('forced').textContent = `${next.forces.length} forced`;
@@ -227,7 +230,7 @@ async function start() {
       if (picture) draw(picture);
     };
     if (writer.on) return turn(false);
-    if (index.mayWrite) return tell(index.mayWrite, true);
+    if (picture?.mayWrite) return tell(picture.mayWrite, true);
     dialog('Switch writing on?', [make('p', '', 'Then this page can set and force values of the running program. ' +
       'Each of them acts at once, is confirmed, and appears in the history.')],
     [['Switch on', () => turn(true)], ['Cancel']]);
@@ -244,6 +247,20 @@ async function start() {
   document.addEventListener('click', () => more(false));
   by('theme').onclick = () => setTheme(isDark() ? 'light' : 'dark');
   by('keys').onclick = keysDialog;
+  by('mark').hidden = by('reload').hidden = !index.machine;
+  by('reload').onclick = () => {
+    if (!writer.on) return tell('The machine would get another program: switch writing on first', true);
+    dialog('Reload the program?', [make('p', '', 'The host compiles its sources as they are now, and the new program takes over ' +
+      'between two scans.')], [['Reload', () => { tell('Compiling …'); writer.send({do: 'reload'}); }], ['Cancel']]);
+  };
+  by('mark').onclick = () => {
+    if (!writer.on) return tell('A mark is written into the recording: switch writing on first', true);
+    const text = make('input');
+    text.setAttribute('aria-label', 'Text of the mark');
+    text.maxLength = 400;
+    dialog('Mark this moment', [make('p', '', 'The text appears on the time line, and the files of the recording are kept.'), text],
+      [['Mark', () => writer.send({do: 'mark', name: text.value.trim()})], ['Cancel']]);
+  };
   by('other').onclick = async () => {
     try {
       const {link} = await post('link', {});

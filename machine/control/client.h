@@ -1,4 +1,4 @@
-// The connection of rungctl to a host's socket: requests with their answers, and events.
+// The connection of a client to a host's socket: requests with their answers, and events.
 #pragma once
 #include <chrono>
 #include <deque>
@@ -10,12 +10,12 @@
 
 #include "machine/control/server.h"
 
-namespace rung::rungctl {
+namespace rung::control {
 
 // A connection to a host.
 struct Reached {
   std::string host;
-  control::Connection connection;
+  Connection connection;
 };
 
 class Client {
@@ -26,6 +26,7 @@ public:
   explicit Client(const std::string& host, std::chrono::milliseconds patience = kAnswer);
 
   const nlohmann::json& greeting() const { return greeting_; }
+  const std::string& host() const { return host_; }
   // Sends a request and waits for the answer. Throws std::runtime_error if the host has ended, or a signal ends the
   // wait.
   nlohmann::json ask(const nlohmann::json& request, std::chrono::milliseconds patience = kAnswer);
@@ -35,23 +36,37 @@ public:
   std::optional<nlohmann::json> event(std::chrono::milliseconds patience);
 
   // For lines that are passed on unchanged.
-  control::Connection& connection() { return connection_; }
+  Connection& connection() { return connection_; }
 
 private:
   Client(Reached reached, std::chrono::milliseconds patience);
   std::optional<nlohmann::json> next(std::chrono::milliseconds wait);
 
   std::string host_;
-  control::Connection connection_;
+  Connection connection_;
   nlohmann::json greeting_;
   std::deque<nlohmann::json> events_;
   bool interrupted_ = false; // a signal ended the last wait
 };
 
+// Sends a request and returns the answer; throws std::runtime_error with the host's sentence if the answer is not ok.
+nlohmann::json asked(Client& client, const nlohmann::json& request,
+                     std::chrono::milliseconds patience = Client::kAnswer);
+
+// Lets the host compile sources (compile::packed), which `reload` and `shadow` then use. The answer of `compiled`: its
+// `state` is not "compiling", unless `stop` has become other than 0.
+nlohmann::json compiledByHost(Client& client, const std::string& packed, const volatile int& stop);
+// A sentence about the state of the program after a reload or a rollback. `program`: "new", "former".
+std::string whetherItRuns(const nlohmann::json& answer, const char* program);
+
+// A value for `set` and `force`, which is written as in scenarios; what JSON cannot represent stays a text, which the
+// host accepts or refuses.
+nlohmann::json writtenValue(const std::string& text);
+
 // Relay of protocol lines between another program and a host.
 
 // Passes lines from `in` to the host and from the host to `out`, until one of them ends or `stop` is not 0. Throws
 // std::runtime_error if a line exceeds the length of a request.
-void relay(control::Connection& host, int in, std::ostream& out, const volatile int& stop);
+void relay(Connection& host, int in, std::ostream& out, const volatile int& stop);
 
-} // namespace rung::rungctl
+} // namespace rung::control

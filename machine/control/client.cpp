@@ -1,5 +1,5 @@
 // See client.h.
-#include "machine/rungctl/client.h"
+#include "machine/control/client.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -10,16 +10,21 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <ostream>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
 #include "machine/control/place.h"
+#include "machine/control/values.h"
+#include "rtlib/text/bit_word.h"
+#include "rtlib/text/number.h"
 
-namespace rung::rungctl {
+namespace rung::control {
 
 using nlohmann::json;
 
@@ -38,7 +43,7 @@ std::string strangerOf(int made) {
 
 // Returns -1 with errno if no host listens there.
 int connected(const std::string& path) {
-  const sockaddr_un address = control::socketAddress(path);
+  const sockaddr_un address = socketAddress(path);
   const int made = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
   if (connect(made, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) {
     const int problem = errno;
@@ -54,13 +59,13 @@ int connected(const std::string& path) {
 }
 
 Reached reachedBy(std::string host, int made) {
-  return {std::move(host), control::Connection(host::Socket(made), control::Connection::kLongestAnswer)};
+  return {std::move(host), Connection(host::Socket(made), Connection::kLongestAnswer)};
 }
 
 Reached reach(const std::string& host) {
   std::string problem;
-  for (const std::string& folder : control::socketFolders(geteuid())) {
-    const std::string path = control::socketPath(folder, host);
+  for (const std::string& folder : socketFolders(geteuid())) {
+    const std::string path = socketPath(folder, host);
     if (const int made = connected(path); made >= 0) return reachedBy(host, made);
     if (problem.empty()) problem = "cannot reach a host at " + path + ": " + std::strerror(errno);
   }
@@ -70,12 +75,12 @@ Reached reach(const std::string& host) {
 // Connects only once to each host: a separate check whether it runs would make it serve two connections.
 Reached reachTheOnlyOne() {
   std::vector<Reached> reached;
-  for (control::Place& place : control::placesOf(geteuid()))
+  for (Place& place : placesOf(geteuid()))
     if (const int made = connected(place.path); made >= 0) reached.push_back(reachedBy(std::move(place.host), made));
   if (reached.size() == 1) return std::move(reached.front());
   if (reached.empty())
     throw std::runtime_error(
-        fmt::format("no host is running: no socket is in {}", fmt::join(control::socketFolders(geteuid()), " or ")));
+        fmt::format("no host is running: no socket is in {}", fmt::join(socketFolders(geteuid()), " or ")));
   std::vector<std::string> hosts;
   for (Reached& one : reached) hosts.push_back(std::move(one.host));
   std::ranges::sort(hosts);
@@ -94,7 +99,7 @@ Client::Client(Reached reached, std::chrono::milliseconds patience)
   if (!first) throw std::runtime_error("the host " + host_ + " does not answer");
   if (first->contains("error")) throw std::runtime_error((*first)["error"].get<std::string>());
   greeting_ = *first;
-  if (greeting_.value("rung", "") != "host" || greeting_.value("protocol", 0) != control::kProtocol)
+  if (greeting_.value("rung", "") != "host" || greeting_.value("protocol", 0) != kProtocol)
     throw std::runtime_error("the host " + host_ + " speaks another protocol: " + greeting_.dump());
 }
 
@@ -145,6 +150,43 @@ std::optional<json> Client::next(std::chrono::milliseconds wait) {
   }
 }
 
+json asked(Client& client, const json& request, std::chrono::milliseconds patience) {
+  json answer = client.ask(request, patience);
+  if (!answer.value("ok", false)) throw std::runtime_error(answer.value("error", "the host refuses"));
+  return answer;
+}
+
+json compiledByHost(Client& client, const std::string& packed, const volatile int& stop) {
+  constexpr size_t kPiece = 45'000; // a request has at most 64 kB
+  for (size_t at = 0; at < packed.size(); at += kPiece)
+    asked(client, {{"do", "sources"}, {"first", at == 0}, {"piece", toBase64(packed.substr(at, kPiece))}});
+  asked(client, {{"do", "compile"}});
+  json answer;
+  do {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    answer = asked(client, {{"do", "compiled"}});
+  } while (stop == 0 && answer["state"] == "compiling");
+  return answer;
+}
+
+std::string whetherItRuns(const json& answer, const char* program) {
+  if (answer.value("put_back", false))
+    return "the new program stopped at once with a fault, and the former one is back: see status";
+  const char* does = answer.value("waits", false)     ? "waits for a reset"
+                     : answer.value("stopped", false) ? "is stopped"
+                     : answer.value("again", false)   ? "runs again"
+                                                      : "runs";
+  return fmt::format("the {} program {}", program, does);
+}
+
+json writtenValue(const std::string& text) {
+  if (const std::optional<bool> bit = text::bitWord(text)) return *bit;
+  const text::WrittenNumber number = text::writtenNumber(text);
+  if (number.form == text::NumberForm::Real && std::isfinite(number.real)) return number.real;
+  if (number.form != text::NumberForm::Whole) return text;
+  return number.negative ? json(static_cast<int64_t>(number.bits())) : json(number.magnitude);
+}
+
 namespace {
 
 // Returns false at the end.
@@ -155,22 +197,22 @@ bool readMore(int in, std::string& text) {
   return count > 0;
 }
 
-void passLines(std::string& text, control::Connection& host) {
+void passLines(std::string& text, Connection& host) {
   for (size_t end = text.find('\n'); end != std::string::npos; end = text.find('\n')) {
     host.send(std::string_view(text).substr(0, end));
     text.erase(0, end + 1);
   }
-  if (text.size() > control::Connection::kLongestRequest) throw std::runtime_error("found a line of more than 64 kB");
+  if (text.size() > Connection::kLongestRequest) throw std::runtime_error("found a line of more than 64 kB");
 }
 
-void passAnswers(control::Connection& host, std::ostream& out) {
+void passAnswers(Connection& host, std::ostream& out) {
   while (const std::optional<std::string> line = host.line()) out << *line << '\n';
   out.flush();
 }
 
 } // namespace
 
-void relay(control::Connection& host, int in, std::ostream& out, const volatile int& stop) {
+void relay(Connection& host, int in, std::ostream& out, const volatile int& stop) {
   constexpr int kTurnMs = 100;
   std::string text;
   while (stop == 0 && out) {
@@ -187,4 +229,4 @@ void relay(control::Connection& host, int in, std::ostream& out, const volatile 
   }
 }
 
-} // namespace rung::rungctl
+} // namespace rung::control

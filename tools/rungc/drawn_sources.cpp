@@ -1,0 +1,90 @@
+// See drawn_sources.h.
+#include "tools/rungc/drawn_sources.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <optional>
+#include <utility>
+
+#include "ir/support/diag_render.h"
+#include "machine/compile/source_paths.h"
+#include "machine/rung-compile/collect.h"
+#include "tools/view/drawn_program.h"
+
+namespace rung::rungc {
+namespace {
+
+// What a program is compiled and drawn from.
+struct Texts {
+  SourceManager sources;
+  std::vector<FileId> files;
+  compiler::CompileRequest request;
+};
+
+Texts textsOf(const compile::Sources& from, const compiler::Compiled& program) {
+  Texts texts{SourceManager(from.texts), {}, {}};
+  for (const std::string& file : from.files) texts.files.push_back(texts.sources.addFile(file).value());
+  texts.request.dialect = from.dialect;
+  texts.request.name = from.name;
+  texts.request.options.config = from.config;
+  texts.request.options.includePaths = from.includePaths;
+  texts.request.instrument = program.passes.instrument;
+  texts.request.optimise = program.passes.optimise;
+  return texts;
+}
+
+// Whether they are those of the program; the error is what is wrong with them.
+Result<bool> isOf(Texts& texts, const compiler::Compiled& program) {
+  Diagnostics diagnostics;
+  const auto compiled = compiler::compile(texts.sources, texts.files, texts.request, diagnostics);
+  if (!compiled || diagnostics.hasErrors()) return failure(renderText(diagnostics, texts.sources));
+  return compiled->codeHash == program.codeHash;
+}
+
+Result<web::ShownProgram> drawn(Texts& texts, const frontend::Dialect& dialect) {
+  Diagnostics diagnostics;
+  auto drawing = view::drawnProgram(texts.sources, texts.files, dialect, texts.request.options, diagnostics);
+  if (!drawing) return failure(renderText(diagnostics, texts.sources));
+  if (!texts.request.name.empty()) drawing->title = texts.request.name;
+  return web::ShownProgram(std::move(*drawing));
+}
+
+} // namespace
+
+Result<web::ShownProgram> drawnAgain(const compiler::Compiled& compiled, const std::string& title) {
+  Texts texts;
+  Result<std::vector<FileId>> files =
+      compiler::addFiles(texts.sources, compiled.module->files, compiled.options.config);
+  if (!files.ok()) return files.failure();
+  texts.files = std::move(files).value();
+  texts.request.name = title;
+  texts.request.options = compiled.options;
+  texts.request.options.configPlaces.clear(); // they are positions in the sources of the first compilation
+  Result<web::ShownProgram> shown = drawn(texts, *compiled.dialect);
+  if (!shown.ok()) return failure(fmt::format("{} was changed while it was compiled", compiled.module->files.front()));
+  return shown;
+}
+
+Result<web::ShownProgram> drawnFrom(const compiler::Compiled& program, const std::vector<std::string>& files) {
+  const std::vector<std::string>& names = files.empty() ? program.module->files : files;
+  const auto cannot = [&](const std::string& why) {
+    return failure(fmt::format("the program {} cannot be drawn: {}", program.module->name, why));
+  };
+  rung_compile::Collected collected = rung_compile::collect(names);
+  if (!collected.sources)
+    return cannot(collected.report + (files.empty() ? "; name its sources as they are here, or their project" : ""));
+  Texts asHere = textsOf(*collected.sources, program);
+  Result<bool> same = isOf(asHere, program);
+  if (same.ok() && same.value()) return drawn(asHere, *program.dialect);
+  compile::rename(*collected.sources, compile::SourcePaths(program.module->files, collected.sources->files));
+  Texts asThere = textsOf(*collected.sources, program);
+  same = isOf(asThere, program);
+  if (same.ok() && same.value()) return drawn(asThere, *program.dialect);
+  if (!same.ok()) return cannot(same.error());
+  return cannot(
+      fmt::format("it was built from another version of {}, or with other settings; `rungctl verify` lists the "
+                  "rungs that differ; name the sources from which it was built",
+                  fmt::join(names, ", ")));
+}
+
+} // namespace rung::rungc

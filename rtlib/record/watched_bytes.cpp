@@ -8,33 +8,6 @@
 
 namespace rung::runtime {
 
-BlockBytes readBytes(const rung_program& program) {
-  BlockBytes bytes(program.memory_size);
-  for (const rung_span& span : std::span(program.reads, program.read_count))
-    std::fill_n(bytes.begin() + span.offset, span.size, true);
-  return bytes;
-}
-
-BlockBytes writtenBytes(const rung_program& program) {
-  BlockBytes bytes(program.memory_size);
-  for (const rung_written& written : std::span(program.writes, program.write_count))
-    std::fill_n(bytes.begin() + written.offset, written.size, true);
-  for (const rung_copy& copy : std::span(program.copies, program.copy_count))
-    std::fill_n(bytes.begin() + copy.to, copy.size, true);
-  return bytes;
-}
-
-BlockBytes bitBytes(const rung_program& program) {
-  BlockBytes bytes(program.memory_size);
-  for (const rung_space& space : std::span(program.spaces, program.space_count))
-    for (const rung_range& range : std::span(space.ranges, space.range_count))
-      if (range.repr == RUNG_REPR_BYTE_PER_BIT)
-        std::fill_n(bytes.begin() + range.offset, size_t{8} * range.byte_count, true);
-  for (const rung_slot& slot : std::span(program.slots, program.slot_count))
-    if (slot.type == RUNG_TYPE_BIT) bytes[slot.offset] = true;
-  return bytes;
-}
-
 bool mayWrite(const BlockBytes& bits, uint64_t offset, std::span<const uint8_t> bytes) {
   if (offset > bits.size() || bytes.size() > bits.size() - offset) return false;
   for (size_t i = 0; i < bytes.size(); ++i)

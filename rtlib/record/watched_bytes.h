@@ -9,21 +9,13 @@
 #include <span>
 #include <vector>
 
+#include "rtlib/load/block_bytes.h"
 #include "rtlib/record/events.h"
 #include "rung/program.h"
 
 namespace rung::runtime {
 
-using BlockBytes = std::vector<bool>; // by offset in the block
-
-// The bytes of spaces that the program may read.
-BlockBytes readBytes(const rung_program& program);
-// Those that the program or its process-image copies may write.
-BlockBytes writtenBytes(const rung_program& program);
-
-// Those that hold one bit each, which is 0 or 1; the code of programs relies on that.
-BlockBytes bitBytes(const rung_program& program);
-// Whether the bytes may be written there: in the block, and no bit is more than 1.
+// Whether the bytes may be written there: in the block, and none of `bits` (bitBytes) is more than 1.
 bool mayWrite(const BlockBytes& bits, uint64_t offset, std::span<const uint8_t> bytes);
 
 class WatchedBytes {

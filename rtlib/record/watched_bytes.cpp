@@ -8,33 +8,6 @@
 
 namespace rung::runtime {
 
-BlockBytes readBytes(const rung_program& program) {
-  BlockBytes bytes(program.memory_size);
-  for (const rung_span& span : std::span(program.reads, program.read_count))
-    std::fill_n(bytes.begin() + span.offset, span.size, true);
-  return bytes;
-}
-
-BlockBytes writtenBytes(const rung_program& program) {
-  BlockBytes bytes(program.memory_size);
-  for (const rung_written& written : std::span(program.writes, program.write_count))
-    std::fill_n(bytes.begin() + written.offset, written.size, true);
-  for (const rung_copy& copy : std::span(program.copies, program.copy_count))
-    std::fill_n(bytes.begin() + copy.to, copy.size, true);
-  return bytes;
-}
-
-BlockBytes bitBytes(const rung_program& program) {
-  BlockBytes bytes(program.memory_size);
-  for (const rung_space& space : std::span(program.spaces, program.space_count))
-    for (const rung_range& range : std::span(space.ranges, space.range_count))
-      if (range.repr == RUNG_REPR_BYTE_PER_BIT)
-        std::fill_n(bytes.begin() + range.offset, size_t{8} * range.byte_count, true);
-  for (const rung_slot& slot : std::span(program.slots, program.slot_count))
-    if (slot.type == RUNG_TYPE_BIT) bytes[slot.offset] = true;
-  return bytes;
-}
-
 bool mayWrite(const BlockBytes& bits, uint64_t offset, std::span<const uint8_t> bytes) {
   if (offset > bits.size() || bytes.size() > bits.size() - offset) return false;
   for (size_t i = 0; i < bytes.size(); ++i)
@@ -44,34 +17,17 @@ bool mayWrite(const BlockBytes& bits, uint64_t offset, std::span<const uint8_t> 
 
 namespace {
 
-bool anyOf(const BlockBytes& bytes, uint32_t offset, uint32_t count) {
-  const auto end = std::min<size_t>(bytes.size(), size_t{offset} + count);
-  return std::find(bytes.begin() + offset, bytes.begin() + static_cast<ptrdiff_t>(end), true) !=
-         bytes.begin() + static_cast<ptrdiff_t>(end);
-}
-
-// The offsets of pieces that together have all bytes. The last one of a block ends with it.
-std::vector<uint32_t> piecesOf(const BlockBytes& bytes, uint32_t piece) {
-  std::vector<uint32_t> pieces;
-  const auto size = static_cast<uint32_t>(bytes.size());
-  const uint32_t last = std::max(size, piece) - piece;
-  for (uint32_t at = 0; at < size;) {
-    if (!bytes[at]) {
-      ++at;
-      continue;
-    }
-    pieces.push_back(std::min(at, last));
-    at = pieces.back() + piece;
-  }
-  return pieces;
-}
-
-std::vector<rung_span> spansOf(const BlockBytes& bytes) {
+// Runs of bytes. Those with at most `gap` bytes between them are one, if none of these bytes is in `apart`.
+std::vector<rung_span> spansOf(const BlockBytes& bytes, uint32_t gap, const BlockBytes& apart) {
   std::vector<rung_span> spans;
+  uint32_t last = 0; // end of the last byte of either list
   for (uint32_t at = 0; at < bytes.size(); ++at) {
-    if (!bytes[at]) continue;
-    if (spans.empty() || spans.back().offset + spans.back().size != at) spans.push_back({at, 0});
-    ++spans.back().size;
+    if (bytes[at]) {
+      const bool joins = !spans.empty() && last == spans.back().offset + spans.back().size && at - last <= gap;
+      if (!joins) spans.push_back({at, 0});
+      spans.back().size = at + 1 - spans.back().offset;
+    }
+    if (bytes[at] || apart[at]) last = at + 1;
   }
   return spans;
 }
@@ -79,17 +35,13 @@ std::vector<rung_span> spansOf(const BlockBytes& bytes) {
 } // namespace
 
 WatchedBytes::WatchedBytes(const rung_program& program, const BlockBytes& bytes)
-    : offsets_(piecesOf(bytes, kPiece)), spans_(spansOf(bytes)) {
-  const BlockBytes written = writtenBytes(program);
-  const auto isInput = [&](uint32_t offset) { return !anyOf(written, offset, kPiece); };
-  inputs_ = static_cast<size_t>(std::stable_partition(offsets_.begin(), offsets_.end(), isInput) - offsets_.begin());
-  while (offsets_.size() % kStep != 0) offsets_.push_back(offsets_.back());
-  known_.assign(offsets_.size(), Words{});
-  for (const uint32_t offset : offsets_) {
-    std::array<uint8_t, kPiece> mask{};
-    for (uint32_t b = 0; b < kPiece && offset + b < bytes.size(); ++b) mask[b] = bytes[offset + b] ? 0xFF : 0;
-    masks_.push_back(std::bit_cast<Words>(mask));
-  }
+    : known_(bytes.size()), watched_(bytes), size_(static_cast<uint32_t>(std::ranges::count(bytes, true))),
+      spans_(spansOf(bytes, 0, bytes)) {
+  constexpr uint32_t kGap = 64; // bytes that cost less than a run of their own
+  compared_ = spansOf(bytes, kGap, bytes);
+  BlockBytes written = writtenBytes(program);
+  for (size_t i = 0; i < written.size(); ++i) written[i] = written[i] && bytes[i];
+  written_ = spansOf(written, kGap, bytes); // a byte of others stays to be found
 }
 
 void WatchedBytes::list(EventWriter& writer) const noexcept {

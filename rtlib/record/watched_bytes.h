@@ -2,29 +2,20 @@
 // variables. After each part of the program they are known; before the next one the differences are what the others
 // have written.
 #pragma once
-#include <array>
-#include <bit>
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "rtlib/load/block_bytes.h"
 #include "rtlib/record/events.h"
 #include "rung/program.h"
 
 namespace rung::runtime {
 
-using BlockBytes = std::vector<bool>; // by offset in the block
-
-// The bytes of spaces that the program may read.
-BlockBytes readBytes(const rung_program& program);
-// Those that the program or its process-image copies may write.
-BlockBytes writtenBytes(const rung_program& program);
-
-// Those that hold one bit each, which is 0 or 1; the code of programs relies on that.
-BlockBytes bitBytes(const rung_program& program);
-// Whether the bytes may be written there: in the block, and no bit is more than 1.
+// Whether the bytes may be written there: in the block, and none of `bits` (bitBytes) is more than 1.
 bool mayWrite(const BlockBytes& bits, uint64_t offset, std::span<const uint8_t> bytes);
 
 class WatchedBytes {
@@ -42,57 +33,46 @@ public:
   // Of the contents of watched bytes.
   uint32_t hash(const uint8_t* block) const noexcept;
   // The maximum number of bytes that `compare` can find changed.
-  uint32_t size() const noexcept { return static_cast<uint32_t>(kPiece * known_.size()); }
+  uint32_t size() const noexcept { return size_; }
 
   // ---- scan thread; nothing here allocates ----
 
   // From now on the present contents are known.
-  void know(const uint8_t* block) noexcept {
-    for (size_t i = 0; i < offsets_.size(); ++i) known_[i] = wordsAt(block, i);
-  }
+  void know(const uint8_t* block) noexcept { take(compared_, block); }
   // The same, if since then only the program has written.
-  void knowWritten(const uint8_t* block) noexcept {
-    for (size_t i = inputs_; i < offsets_.size(); ++i) known_[i] = wordsAt(block, i);
-  }
+  void knowWritten(const uint8_t* block) noexcept { take(written_, block); }
   // Whether all is as known. False also if a neighbour of watched bytes is not.
   bool isAsKnown(const uint8_t* block) const noexcept {
-    Words different{};
-    for (size_t i = 0; i < offsets_.size(); i += kStep) // there are so many that no rest remains
-      for (size_t k = i; k < i + kStep; ++k) different |= wordsAt(block, k) ^ known_[k];
-    return (different[0] | different[1]) == 0;
+    for (const rung_span& span : compared_)
+      if (std::memcmp(block + span.offset, known_.data() + span.offset, span.size) != 0) return false;
+    return true;
   }
-  // Calls changed(offset) for each byte that is not as known, and makes all known. Offsets ascend among inputs, and
-  // among the others after them.
+  // Calls changed(offset) for each byte that is not as known, with ascending offsets, and makes all known.
   template <class Changed>
   void compare(const uint8_t* block, Changed changed) noexcept {
-    for (size_t i = 0; i < offsets_.size(); ++i) {
-      const Words different = (wordsAt(block, i) ^ known_[i]) & masks_[i];
-      known_[i] = wordsAt(block, i);
-      if ((different[0] | different[1]) == 0) continue;
-      const auto bytes = std::bit_cast<std::array<uint8_t, kPiece>>(different);
-      for (uint32_t b = 0; b < kPiece; ++b)
-        if (bytes[b] != 0) changed(offsets_[i] + b);
-    }
+    for (const rung_span& span : compared_)
+      for (uint32_t at = span.offset, end = span.offset + span.size; at < end; at += kPiece) {
+        const uint32_t count = std::min(kPiece, end - at);
+        if (std::memcmp(block + at, known_.data() + at, count) == 0) continue;
+        for (uint32_t i = at; i < at + count; ++i)
+          if (block[i] != known_[i] && watched_[i]) changed(i);
+        std::memcpy(known_.data() + at, block + at, count);
+      }
   }
 
 private:
-  static constexpr uint32_t kPiece = 16; // bytes that are compared at once
-  static constexpr size_t kStep = 4;     // pieces of which the comparison makes one step
-  using Words = uint64_t __attribute__((vector_size(kPiece)));
+  static constexpr uint32_t kPiece = 64; // bytes that are compared at once where something has changed
 
-  Words wordsAt(const uint8_t* block, size_t piece) const noexcept {
-    Words words;
-    std::memcpy(&words, block + offsets_[piece], sizeof words);
-    return words;
+  void take(const std::vector<rung_span>& spans, const uint8_t* block) noexcept {
+    for (const rung_span& span : spans) std::memcpy(known_.data() + span.offset, block + span.offset, span.size);
   }
 
-  // Of each piece: first those in which the program writes nothing, `inputs_` of them. The last piece of the block may
-  // overlap another one, and the last of the list may be there several times.
-  std::vector<uint32_t> offsets_;
-  std::vector<Words> known_;
-  std::vector<Words> masks_; // of watched bytes
-  size_t inputs_ = 0;
-  std::vector<rung_span> spans_; // of watched bytes
+  std::vector<uint8_t> known_; // by offset in the block
+  BlockBytes watched_;
+  uint32_t size_ = 0;
+  std::vector<rung_span> spans_;    // of watched bytes
+  std::vector<rung_span> compared_; // those with short gaps between them
+  std::vector<rung_span> written_;  // of compared_, what the program may write, in the same way
 };
 
 } // namespace rung::runtime

@@ -5,6 +5,8 @@
 #include <cstring>
 #include <new>
 
+#include "rtlib/load/block_bytes.h"
+
 namespace rung::runtime {
 
 Instance::Instance(const Runnable& runnable, ScheduleHooks* hooks)
@@ -312,15 +314,11 @@ LoadResult Instance::checkState(core::Loader& loader) const noexcept {
 
 // Compiled rungs rely on bits that are 0 or 1.
 bool Instance::hasOnlyBits() const noexcept {
-  for (const rung_space& space : std::span(program().spaces, program().space_count))
-    for (const rung_range& range : std::span(space.ranges, space.range_count)) {
-      if (range.repr != RUNG_REPR_BYTE_PER_BIT) continue;
-      const auto bits = block().subspan(range.offset, size_t{8} * range.byte_count);
-      if (std::ranges::any_of(bits, [](uint8_t bit) { return bit > 1; })) return false;
-    }
-  for (const rung_slot& slot : std::span(program().slots, program().slot_count))
-    if (slot.type == RUNG_TYPE_BIT && block()[slot.offset] > 1) return false;
-  return true;
+  bool good = true;
+  eachBits(program(), [&](size_t offset, size_t count) noexcept {
+    good = good && std::ranges::none_of(block().subspan(offset, count), [](uint8_t bit) { return bit > 1; });
+  });
+  return good;
 }
 
 void Instance::loadState(core::Loader& loader) noexcept {

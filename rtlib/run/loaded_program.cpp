@@ -6,6 +6,7 @@
 #include <new>
 #include <span>
 
+#include "rtlib/load/block_bytes.h"
 #include "rtlib/load/program_info.h"
 
 namespace rung::runtime {
@@ -106,10 +107,6 @@ bool saysWhatItReads(const rung_program& program) {
                              [](const rung_task& task) { return task.begin_count == 0 || task.read_count != 0; });
 }
 
-void mark(std::vector<bool>& bytes, uint32_t offset, uint32_t size) {
-  for (uint32_t i = 0; i < size; ++i) bytes[offset + i] = true;
-}
-
 } // namespace
 
 CopyLists::CopyLists(const rung_program& program, bool whole)
@@ -125,10 +122,7 @@ CopyLists::CopyLists(const rung_program& program, bool whole)
 }
 
 void CopyLists::findTouched(const rung_program& program) {
-  for (const rung_written& w : std::span(program.writes, program.write_count)) {
-    mark(written_, w.offset, w.size);
-    mark(touched_, w.offset, w.size);
-  }
+  touched_ = written_ = chunkBytes(program);
   for (const rung_span& span : std::span(program.reads, program.read_count)) mark(touched_, span.offset, span.size);
   for (const rung_span& span : std::span(program.retains, program.retain_count)) mark(touched_, span.offset, span.size);
   for (const rung_copy& copy : std::span(program.copies, program.copy_count))

@@ -270,6 +270,7 @@ class Recorded(WithHost):
         self.host = Host(BIN, self.map, options=["--simulate", "--config", "param.2402=0"],
                          program=Path("tests/scenarios/gsk/nc-mst.pmc").read_text())
         self.addCleanup(self.host.end)
+        self.host.pass_by(2)
         self.set("X8.4", 1)  # no emergency stop
         self.sees((0x20, False), "F3", "F1.1")
         self.host.ctl("event", "program", "blocks=O12 N10 M3 S1500; N20 T5; N30 M30")
@@ -279,7 +280,7 @@ class Recorded(WithHost):
         self.sees((3, 1500), "F10:4", "F22:4")
         self.host.pass_by(12)
         self.is_played()
-        self.assertRegex(self.replay("--find", "F22:4 = 1500"), r"scan \d+")
+        self.assertRegex(self.replay("--find", "rises F7.0"), r"scan \d+")  # the strobe of M3
 
 
 class Mistakes(unittest.TestCase):

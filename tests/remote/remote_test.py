@@ -724,6 +724,8 @@ class FullDisk(Host):
 def blocks(path):
     """(kind, events) of the blocks of a segment, and the bytes after them: docs/recording.md."""
     data = path.read_bytes()
+    if len(data) < 56:  # it has just been made
+        return [], data
     magic, version, mode, program, number, run, since, zero, checksum = struct.unpack("<8sIIQQQqII", data[:56])
     assert (magic, version, zero, checksum) == (b"RUNGREC\n", 1, 0, zlib.crc32(data[:52])), path
     found, at, unpacker = [], 56, None

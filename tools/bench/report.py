@@ -16,6 +16,7 @@ import passes
 import peers
 import plot
 import real
+import recordings
 import services
 import start
 from callgrind import Failure, run
@@ -210,6 +211,7 @@ def main(tools, folder):
     starts = start.measure(tools)
     of_machines = machines.measure(tools)
     of_services = services.measure(tools)
+    of_recordings = recordings.measure(tools, recordings.SCANS)
     of_real = real.measure(tools)
     of_passes = passes.measure(tools)
     with tempfile.TemporaryDirectory() as built:
@@ -227,6 +229,7 @@ def main(tools, folder):
     print(start.text_of(starts, os.cpu_count()))
     print(machines.text_of(of_machines))
     print(services.text_of(of_services))
+    print(recordings.text_of(of_recordings, recordings.SCANS))
     print(real.text_of(of_real))
     print(passes.text_of(of_passes))
     print(f"{counts_text(rows)}\n![Ratios of instructions, a bar for each dialect and program](performance-counts.svg)\n")

@@ -148,6 +148,11 @@ check_counts() {
   python3 tools/bench/count.py build/bin --check
 }
 
+check_recordings() { # what they take, and whether all is played as it was
+  build_some rungc rung-bench-scan rung-bench-work
+  python3 tools/bench/recordings.py build/bin
+}
+
 check_replace() { # the state afterwards, the processor time, and what the programs do
   build_some rung_replace rungc
   build/bin/tests/rung_replace build/tests/replace 10000 --bounds

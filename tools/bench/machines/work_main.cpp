@@ -3,14 +3,13 @@
 // same program runs as in a host (replay.h) up to so many scans, and records into FOLDER what the machine writes. Then
 // the recording is played, and a hash of all outputs compared after each scan with that of the run. Prints the figures
 // as JSON.
-#include <chrono>
 #include <cstdlib>
 #include <ctime>
 #include <exception>
 #include <fstream>
+#include <functional>
 #include <iostream>
 #include <memory>
-#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -18,6 +17,7 @@
 #include <nlohmann/json.hpp>
 
 #include "compiler/embedded_ir.h"
+#include "rtlib/record/recording_file.h"
 #include "tools/bench/machines/recorder.h"
 #include "tools/replay/growing_recording.h"
 #include "tools/replay/past.h"
@@ -83,8 +83,9 @@ public:
     auto opened = replay::Past::open(recording.value(), {.engine = compiler::EngineKind::Jit});
     if (!opened.ok()) throw std::runtime_error(opened.error());
     replay::Past& past = *opened.value();
-    parts_ = past.contents().parts;
     states_ = past.contents().states.size();
+    for (const replay::Segment& segment : recording.value().segments) events_ += segment.events.size();
+    for (const replay::StatePoint& state : past.contents().states) events_ -= state.ends - state.begins;
     const double begin = cpuSeconds();
     uint64_t played = past.part();
     for (; past.next(); ++played)
@@ -98,13 +99,32 @@ public:
   }
 
   nlohmann::json figures() const {
-    return {{"scans", outputs_.size()},    {"pieces", pieces_},        {"raw", state_.raw},
-            {"states", states_},           {"packed", state_.written}, {"losses", state_.losses},
-            {"differences", differences_}, {"seconds", playedSeconds_}};
+    return {{"scans", outputs_.size()},
+            {"pieces", pieces_},
+            {"events", events_},
+            {"states", states_},
+            {"packed_states", packed(runtime::BlockKind::State)},
+            {"packed_events", packed(runtime::BlockKind::Events)},
+            {"losses", state_.losses},
+            {"differences", differences_},
+            {"seconds", playedSeconds_}};
   }
   bool isGood() const { return differences_ == 0 && state_.losses == 0; }
 
 private:
+  // Bytes of the blocks of this kind, in the files.
+  uint64_t packed(runtime::BlockKind kind) const {
+    uint64_t sum = 0;
+    for (const runtime::SegmentFile& file : runtime::segmentsIn(folder_)) {
+      std::ifstream in(folder_ + "/" + file.name, std::ios::binary);
+      in.seekg(sizeof(runtime::SegmentHead));
+      for (runtime::BlockHead head; in.read(reinterpret_cast<char*>(&head), sizeof head);
+           in.seekg(head.size, std::ios::cur))
+        if (head.kind == kind) sum += sizeof head + head.size;
+    }
+    return sum;
+  }
+
   static constexpr uint64_t kProbe = 6000;
   using Started = std::function<void(bench::Recorder&, const compiler::Compiled&)>;
 
@@ -149,7 +169,7 @@ private:
   std::unique_ptr<bench::Recorder> recorder_;
   std::vector<uint64_t> outputs_; // after each scan
   runtime::RecordingState state_;
-  uint64_t pieces_ = 0, parts_ = 0, states_ = 0, differences_ = 0;
+  uint64_t pieces_ = 0, states_ = 0, events_ = 0, differences_ = 0;
   double playedSeconds_ = 0;
 };
 

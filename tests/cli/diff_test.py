@@ -43,6 +43,24 @@ class Diff(unittest.TestCase):
         self.assertEqual(self.diff(HEAD + ONE + TWO + THREE + END, again),
                          (SAME, "rungs: 0 changed, 0 added, 0 removed, 0 moved, 4 unchanged\n"))
 
+    def test_page(self):
+        """Both versions of what differs in the order of the newer one, the rest folded; a name that is no page is refused."""
+        page = Path(self.folder.name) / "page.html"
+        added = '\nrung "more"\n|--[LAMP]--(7002.01)\n'
+        status, text = self.diff(HEAD + ONE + TWO + THREE + END, HEAD + ONE.replace("[START]", "[/START]") + added + THREE + END, "-o", page)
+        self.assertEqual((status, text), (OTHERWISE, f"wrote page.html\n"))
+        html = page.read_text()
+        self.assertEqual(re.findall(r'<section class="is-(\w+)"', html), ["changed", "removed", "added"])
+        self.assertEqual(html.count('class="qp"'), 2)
+        self.assertIn("2 unchanged rungs: 3 to 4", html)
+        self.assertNotIn("<script", html)
+        status, text = self.diff(HEAD + ONE + END, HEAD + ONE + END, "-o", page)
+        self.assertEqual(status, SAME)
+        self.assertNotIn("<section", page.read_text())
+        done = subprocess.run([RUNGC, "diff", "a.lad", "b.lad", "-o", "page.svg"], capture_output=True, text=True, timeout=patience(300), check=False)
+        self.assertEqual(done.returncode, USAGE)
+        self.assertIn(".html", done.stderr)
+
     def test_names_without_case(self):
         """Of FANUC (F4); in NCT they are two names."""
         old = "%@2\nD10 Count\nR5.0 Flag\n%\n%@3\nSUB 1\nRD FLAG\nWRT Y0.0\nSUB 2\nSUB 64\n%\n"

@@ -2,15 +2,20 @@
 #include <algorithm>
 #include <filesystem>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <memory>
+#include <optional>
 
 #include "ir/image/program_image.h"
 #include "ir/support/hash.h"
 #include "rtlib/text/letters.h"
 #include "tools/report/difference.h"
 #include "tools/rungc/commands.h"
+#include "tools/view/compare_html.h"
+#include "tools/view/drawn_program.h"
 
 namespace rung::rungc {
 namespace {
@@ -22,6 +27,7 @@ struct DiffOptions {
   std::vector<std::string> newer;
   SourceOptions common; // without files
   std::string format = "text";
+  std::string out; // a page; empty: none
 };
 
 // One of the two versions, with the project that it names or belongs to.
@@ -149,9 +155,106 @@ std::set<std::string> controlNames(const frontend::Analysis& analysis) {
   return names;
 }
 
+// ---- the page ------------------------------------------------------------------------------------------------------
+
+uint32_t numberOf(const report::ShownRung& rung) { return rung.rung == nullptr ? 0 : rung.rung->number; }
+
+// Rungs of the older version that are in the same order in the newer one, and those that were removed after each.
+struct OldOrder {
+  std::vector<uint32_t> same;
+  std::map<uint32_t, std::vector<uint32_t>> removedAfter; // by number; 0: at the beginning
+};
+
+OldOrder oldOrder(const report::Difference& found, const view::Program& before) {
+  std::map<uint32_t, report::ChangeKind> kinds;
+  for (const report::RungChange& change : found.rungs)
+    if (change.before.rung != nullptr) kinds[change.before.rung->number] = change.kind;
+  OldOrder order;
+  uint32_t last = 0;
+  for (const view::Figure& figure : before.figures) {
+    const auto kind = kinds.find(figure.number);
+    if (kind == kinds.end()) order.same.push_back(figure.number);
+    if (kind != kinds.end() && kind->second == report::ChangeKind::Removed)
+      order.removedAfter[last].push_back(figure.number);
+    else if (kind == kinds.end() || kind->second == report::ChangeKind::Changed)
+      last = figure.number;
+  }
+  return order;
+}
+
+view::ComparedRung::State stateOf(report::ChangeKind kind) {
+  switch (kind) {
+  case report::ChangeKind::Added: return view::ComparedRung::State::Added;
+  case report::ChangeKind::Removed: return view::ComparedRung::State::Removed;
+  case report::ChangeKind::Changed: return view::ComparedRung::State::Changed;
+  case report::ChangeKind::Moved: return view::ComparedRung::State::Moved;
+  }
+  return view::ComparedRung::State::Same;
+}
+
+std::vector<view::ComparedRung> rungsOf(const report::Difference& found, const view::Program& before,
+                                        const view::Program& after) {
+  using State = view::ComparedRung::State;
+  const OldOrder old = oldOrder(found, before);
+  std::map<uint32_t, const report::RungChange*> changes; // by number in the newer version
+  for (const report::RungChange& change : found.rungs)
+    if (change.after.rung != nullptr) changes[change.after.rung->number] = &change;
+  std::vector<view::ComparedRung> rungs;
+  const auto removed = [&](uint32_t last) {
+    if (const auto at = old.removedAfter.find(last); at != old.removedAfter.end())
+      for (const uint32_t number : at->second) rungs.push_back({State::Removed, number, 0, {}});
+  };
+  removed(0);
+  size_t same = 0;
+  for (const view::Figure& figure : after.figures) {
+    view::ComparedRung& rung = rungs.emplace_back(State::Same, 0, figure.number);
+    if (const auto change = changes.find(figure.number); change != changes.end()) {
+      rung.state = stateOf(change->second->kind);
+      rung.before = numberOf(change->second->before);
+      for (const report::ChangedPath& path : change->second->paths)
+        rung.remarks.push_back(fmt::format("leads to {} instead of {}", path.after, path.before));
+    } else if (same < old.same.size()) {
+      rung.before = old.same[same++];
+    }
+    if (rung.state == State::Same || rung.state == State::Changed) removed(rung.before);
+  }
+  return rungs;
+}
+
+view::ComparedTable tableOf(std::string title, const std::vector<report::NameChange>& changes) {
+  view::ComparedTable table{std::move(title), {}};
+  for (const report::NameChange& change : changes)
+    table.rows.push_back({std::string(report::nameOf(change.kind)), change.name, change.before, change.after});
+  return table;
+}
+
+std::optional<view::Program> drawingOf(Side& side) {
+  frontend::CompileOptions options = side.compiled->options;
+  options.marks = nullptr;
+  options.given = nullptr;
+  Diagnostics diagnostics;
+  return view::drawnProgram(side.sources, side.compiled->files, *side.compiled->dialect, options, diagnostics);
+}
+
+int writePage(const report::Difference& found, Side& before, Side& after, const DiffOptions& options) {
+  std::optional<view::Program> older = drawingOf(before), newer = drawingOf(after);
+  if (!older || !newer) return environmentError("the programs cannot be drawn");
+  const view::Comparison comparison{
+      .before = fmt::format("{}", fmt::join(before.names, ", ")),
+      .after = fmt::format("{}", fmt::join(after.names, ", ")),
+      .rungs = rungsOf(found, *older, *newer),
+      .tables = {tableOf("Names", found.names), tableOf("Initial contents", found.contents),
+                 tableOf("Messages", found.messages), tableOf("Configuration", found.settings)}};
+  const std::string page = view::renderComparison(std::move(*older), std::move(*newer), comparison);
+  return sayWrote(writeFile(page, options.out), options.out, options.common);
+}
+
 // ---- the command ---------------------------------------------------------------------------------------------------
 
 int run(const DiffOptions& options) {
+  if (!options.out.empty() && !options.out.ends_with(".html"))
+    return usageError(
+        fmt::format("-o {}: the page of a comparison is an HTML file, its name ends in .html", options.out));
   Side before, after;
   if (!takeNames(options, before, after))
     return usageError(fmt::format("diff takes the older and the newer version, found {} name{}; if a version has "
@@ -175,8 +278,13 @@ int run(const DiffOptions& options) {
   };
   const report::Options what{.messages = complete, .textName = before.compiled->dialect->textName};
   const report::Difference found = report::compare(version(before, images[0]), version(after, images[1]), what);
-  const auto show = options.format == "json" ? report::shownAsJson : report::shownAsText;
-  status = writeOutput(show(found, *before.compiled->built, *after.compiled->built));
+  if (!options.out.empty()) {
+    status = writePage(found, before, after, options);
+    return status != kOk || found.none() ? status : kWrong;
+  }
+  const ir::Module &older = *before.compiled->built, &newer = *after.compiled->built;
+  status = writeOutput(options.format == "json" ? report::shownAsJson(found, older, newer)
+                                                : report::shownAsText(found, older, newer));
   return status != kOk || found.none() ? status : kWrong;
 }
 
@@ -197,6 +305,8 @@ void addDiff(CommandLine& app, int& status) {
   command.option("--config", options->common.config, "KEY=VALUE of the dialect's configuration; may be repeated")
       .oneValue();
   command.option("--format", options->format, "Format of the report").oneOf({"text", "json"}).showDefault();
+  command.option("-o,--output", options->out,
+                 "Writes a page (.html) instead: both versions side by side, what differs marked, the rest folded");
   addColorOption(command, options->common.color, "Colours in diagnostics");
   command.exitStatus("0 no difference, 1 there are differences or a program is wrong, 2 wrong usage, 3 environment");
   command.onRun([options, &status] { status = run(*options); });

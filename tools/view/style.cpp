@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "ir/support/put.h"
 #include "ir/support/utf8.h"
 
 namespace rung::view {
@@ -42,6 +43,17 @@ int monoWidth(uint32_t c) { return 605 * static_cast<int>(displayWidth(c)); }
 } // namespace
 
 const StyleInfo& infoOf(Style style) { return kInfos[static_cast<size_t>(style)]; }
+
+std::string colourRules() {
+  std::string light, dark;
+  for (const ColourInfo& info : kColourInfos) {
+    put(light, "--{}:{};", info.name, info.light);
+    put(dark, "--{}:{};", info.name, info.dark);
+  }
+  return fmt::format(":root {{ {0} }}\n:root[data-theme=dark] {{ {1} }}\n"
+                     "@media (prefers-color-scheme: dark) {{ :root:not([data-theme=light]) {{ {1} }} }}\n",
+                     light, dark);
+}
 
 int lineHeight(Style style) { return static_cast<int>(infoOf(style).size) + 3; }
 

@@ -62,6 +62,10 @@ inline constexpr std::array<ColourInfo, kColours> kColourInfos = {{
 
 constexpr const ColourInfo& infoOf(Colour colour) { return kColourInfos[static_cast<size_t>(colour)]; }
 
+// CSS that sets the properties of a page, light, dark, and as the system prefers; data-theme of the root element
+// chooses.
+std::string colourRules();
+
 // The space that a text takes. The reader's fonts are not known, so widths are those of wide fonts (DejaVu): in
 // narrower ones a text only leaves more space.
 

@@ -57,18 +57,6 @@ std::string_view typeOf(std::string_view name) {
   return name.ends_with(".css") ? "text/css" : "text/html";
 }
 
-// The colours of drawings, light, dark, and as the system prefers.
-std::string styleSheet(const view::Program& drawing) {
-  std::string light, dark;
-  for (const view::ColourInfo& info : view::kColourInfos) {
-    light += fmt::format("--{}:{};", info.name, info.light);
-    dark += fmt::format("--{}:{};", info.name, info.dark);
-  }
-  return fmt::format(":root {{ {0} }}\n:root[data-theme=dark] {{ {1} }}\n"
-                     "@media (prefers-color-scheme: dark) {{ :root:not([data-theme=light]) {{ {1} }} }}\n{2}",
-                     light, dark, view::pictureStyle(drawing, true));
-}
-
 json namesOf(const ShownProgram& program) {
   const std::map<uint32_t, std::set<std::string>> shapes = program.shapes();
   json all = json::array();
@@ -285,7 +273,8 @@ Response Page::respond(const Request& request, const std::function<std::string()
   if (request.path == "/api/trace") return trace(request);
   if (request.path == "/api/shares") return shares(request);
   if (request.path == "/api/why") return why(request);
-  if (request.path == "/style.css") return {200, "text/css", styleSheet(source_.drawn().program->drawing())};
+  if (request.path == "/style.css")
+    return {200, "text/css", view::colourRules() + view::pictureStyle(source_.drawn().program->drawing(), true)};
   const std::string_view name = request.path == "/" ? "index.html" : std::string_view(request.path).substr(1);
   const auto file = std::ranges::find(appFiles(), name, &text::EmbeddedFile::name);
   if (file == appFiles().end()) return textOf(404, "there is no such page");

@@ -264,6 +264,13 @@ private:
     return *after_[cell];
   }
 
+  // Whether anything at the left of the cell was evaluated.
+  bool isReached(uint32_t cell) {
+    return std::ranges::any_of(path_.from[cell], [&](uint32_t from) {
+      return at(from).kind == Cell::Kind::Joint ? isReached(from) : on(from).has_value();
+    });
+  }
+
   bool passes(uint32_t cell) {
     switch (at(cell).kind) {
     case Cell::Kind::Rail: return true;
@@ -272,8 +279,8 @@ private:
     case Cell::Kind::Box: return leavesBox(cell);
     case Cell::Kind::Contact: break;
     }
-    if (isComplement(at(cell))) return !before(cell);
-    return before(cell) && on(cell).value_or(false);
+    const bool isOn = on(cell).value_or(false);
+    return isOn && (isComplement(at(cell)) || before(cell));
   }
 
   bool leavesBox(uint32_t cell) {
@@ -295,7 +302,7 @@ private:
     const Cell& one = at(cell);
     const bool follows = one.kind == Cell::Kind::Coil && isRegister(one);
     if (one.kind == Cell::Kind::Rail || one.kind == Cell::Kind::Joint || follows) return before(cell);
-    if (isComplement(one)) return !before(cell);
+    if (isComplement(one)) return isReached(cell) ? std::optional(!before(cell)) : std::nullopt;
     if (isRegister(one)) return stored(cell);
     if (one.mark == kExclusiveMark) return exclusive(cell);
     return (states_[cell] & kWired) != 0 ? std::optional(before(cell)) : state(cell);

@@ -75,7 +75,7 @@ bool leaves(const Shown& shown, uint32_t cell) {
   const Cell& one = shown.sheet.cells[cell];
   const uint8_t state = shown.states[cell];
   if (one.kind == Cell::Kind::Rail) return true;
-  if (one.kind == Cell::Kind::Contact && one.mark == "NOT") return !hasPower(shown, cell);
+  if (one.kind == Cell::Kind::Contact && one.mark == "NOT") return shown.text[cell] != '-' && !hasPower(shown, cell);
   const bool isRegister = one.operand.name == "RLO" || one.operand.name == "STACK";
   if (one.kind == Cell::Kind::Contact && isRegister)
     return shown.text[cell] != '-' && ((shown.text[cell] - '0') & 1) != 0;

@@ -124,7 +124,7 @@ LogEntry* LogEntries::lastOf(const LogEntry& like) {
 LogEntry& LogEntries::add(LogEntry entry) {
   entry.number = ++last_;
   entries_.push_back(std::move(entry));
-  if (entries_.size() > kMost + shown_.size()) drop();
+  while (entries_.size() > kMost + shown_.size()) drop();
   change(entries_.back());
   return entries_.back();
 }

@@ -207,7 +207,7 @@ void addSection(Lines& page, const Look& look, const View& view, size_t room) {
               lines.begin() + static_cast<std::ptrdiff_t>(end));
 }
 
-constexpr const char* kKeys = "o overview  r rungs  t timers  p pins  m messages  w waiting  l log  s sort  q quit";
+constexpr const char* kKeys = "o overview  r rungs  t timers  p pins  m messages  w waits  l log  s sort  q end";
 
 } // namespace
 

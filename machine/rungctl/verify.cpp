@@ -40,6 +40,7 @@ ProgramTables compiled(const Words& words, const ProgramTables& machine) {
   rung_compile::Collected collected = rung_compile::collect(words.files, isatty(STDERR_FILENO) != 0);
   if (!collected.sources) throw Unknown(collected.report);
   collected.sources->profile = machine.instrumented;
+  if (!collected.sources->name.empty()) collected.sources->name = machine.name; // often that of the folder
   const compile::SourcePaths paths(machine.files, collected.sources->files);
   compile::rename(*collected.sources, paths);
   compile::Compilation compilation(compile::packed(*collected.sources));
@@ -67,7 +68,7 @@ std::string elseText(const ProgramTables& machine, const ProgramTables& other) {
   if (machine.files != other.files)
     return fmt::format("compiled from files with other paths: {} runs, this is {}", fmt::join(machine.files, ", "),
                        fmt::join(other.files, ", "));
-  return "options of the compilation, remarks or lines differ";
+  return "values of constants that rungs use, options of the compilation, remarks or lines differ";
 }
 
 int compare(const Words& words) {
@@ -97,7 +98,7 @@ int compare(const Words& words) {
   for (const runtime::ProgramPart* part : found.parts) answer["parts"].push_back(part->name);
   for (const json& rung : found.rungs) text += rungLine(rung) + "\n";
   for (const runtime::ProgramPart* part : found.parts) text += std::string(part->difference) + "\n";
-  if (found.none()) text += "no rung differs; " + elseText(machine, other) + "\n";
+  if (found.none()) text += "no rung has another text; " + elseText(machine, other) + "\n";
   print(words, answer, text);
   // A compiled program keeps the paths that it has; nothing else is known to differ.
   return found.none() && machine.compiler == other.compiler && machine.files != other.files ? kUnknownProgram

@@ -12,6 +12,7 @@ import struct
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 import unittest
 from pathlib import Path
@@ -627,7 +628,7 @@ class VerifySources(Host):
         text = self.ctl("verify", copy / "stuck.pmc", status=OTHER)
         self.assertIn("\nchanged rung 1, ", text)
         (copy / "stuck.pmc").write_text("; a remark\n" + PROGRAM)
-        self.assertIn("no rung differs; options of the compilation, remarks or lines differ", self.ctl("verify", copy / "stuck.pmc", status=OTHER))
+        self.assertIn("no rung has another text; values of constants that rungs use, options of the compilation, remarks or lines differ", self.ctl("verify", copy / "stuck.pmc", status=OTHER))
         self.assertIn("[write-to-input]", self.ctl("verify", self.broken(copy), status=UNKNOWN))
 
     def broken(self, folder):
@@ -718,9 +719,10 @@ class VerifyExamples(unittest.TestCase):
 
     def test_technol(self):
         self.verify("technol-machining-centre",
-                    ("centre.inc", "EQUI T_CONTACTOR,25", "EQUI T_CONTACTOR,26", r"\nchanged rung \d+.*/copy/\w+\.plc:\d+\n"),
+                    ("centre.inc", "EQUI T_CONTACTOR,25", "EQUI T_CONTACTOR,26", r"\nno rung has another text; values of constants that rungs use, "),
                     ("centre.PlcConstants", "<Constant ID=\"CMD_PARTS\"", "<Constant ID=\"CMD_OTHER\" Value=\"PLCCOMMAND\"/>\n<Constant ID=\"CMD_PARTS\"",
-                     r"\nnames or constants differ"))
+                     r"\nno rung has another text; values of constants that rungs use, "),
+                    ("fluids.plc", "LDR  PROGRAM", "LDR  -PROGRAM", r"\nchanged rung \d+.*/copy/fluids\.plc:\d+\n"))
 
     def test_gsk(self):
         self.verify("gsk-mill", ("mill.msg", "NO HYDRAULIC PRESSURE", "NO PRESSURE", r"\ntexts of messages differ\n"))
@@ -775,7 +777,7 @@ class Timers(unittest.TestCase):
         self.timers("plc.pmc", "dialect gsk\nFUNC END1\nLD X0.0\nFUNC TMR\nPRM 10\nOUT R0.0\nLD X0.1\nFUNC TMRB\nPRM 12\nPRM 900000\nOUT R0.1\n"
                     "LD X0.2\nFUNC TMRC\nPRM 2\nPRM D100\nPRM R20\nOUT R0.2\nLD X0.3\nFUNC TMRB\nPRM 13\nPRM 80\nOUT R0.3\nFUNC END2\n",
                     ("T18:2", 1000), ("D100:2", 600))
-        self.run_of("TMR 10", ("X0.0", 1), ("X0.0", 0), 8_000_000)
+        self.run_of("TMR 10", ("X0.0", 1), ("X0.0", 0), 48_000_000)
         self.run_of("TMRB 12", ("X0.1", 1), ("X0.1", 0), 900_000_000)
         self.run_of("TMRC 2 D100 R20", ("X0.2", 1), ("X0.2", 0), 600_000_000)
         self.assertIn("no timer runs", self.ctl("top", "--once"))
@@ -854,7 +856,7 @@ class Top(Retaining):
         self.until(screen, "no message is on")
         self.ctl("set", "X0.4", 1)
         self.until(screen, "- on now    message 4")
-        for key, heading in (("r", "RUNGS by time"), ("s", "RUNGS by longest run"), ("p", "PINS by change"), ("s", "PINS by name"),
+        for key, heading in (("t", "TIMERS that run"), ("r", "RUNGS by time"), ("s", "RUNGS by longest run"), ("p", "PINS by change"), ("s", "PINS by name"),
                              ("m", "MESSAGES that are on"), ("w", "WAITING functions"), ("l", "LOG, newest first"), ("\t", "RUNGS by time")):
             screen.press(key)
             self.until(screen, heading)
@@ -921,6 +923,49 @@ class Top(Retaining):
         self.assertEqual(screen.end(patience()), WRONG)
         self.assertIn(b"cannot reach a host", screen.process.stderr.read())
         self.ctl("top", "--once", "--host", "none", status=WRONG)
+
+
+class TopAsks(unittest.TestCase):
+    """What top asks a host for, by one that only writes it down."""
+    ANSWERS = {"status": {"host": "plc", "program": "mill", "dialect": "gsk", "scanned": True, "scans": 1, "missed": 0, "us": 0},
+               "timers": {"timers": []}, "messages": {"entries": []}, "log": {"entries": []}, "map": {"pins": []},
+               "profile": {"ok": False, "error": "not built for it"}}
+
+    def serve(self, listening):
+        made, _ = listening.accept()
+        with made, made.makefile("r") as lines:
+            made.sendall(b'{"rung":"host","protocol":1,"host":"plc","program":"mill","dialect":"gsk"}\n')
+            for line in lines:
+                what = json.loads(line)["do"]
+                self.asked.append(what)
+                made.sendall(json.dumps({"ok": True, **self.ANSWERS[what]}).encode() + b"\n")
+
+    def test_for_the_log_only_where_it_is_shown(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.asked = []
+        listening = socket.socket(socket.AF_UNIX)
+        self.addCleanup(listening.close)
+        listening.bind(f"{folder.name}/plc.sock")
+        listening.listen()
+        serving = threading.Thread(target=self.serve, args=[listening], daemon=True)
+        serving.start()
+        screen = Screen([BIN / "rungctl", "top"], {**os.environ, "RUNG_SOCKETS": folder.name})
+        self.addCleanup(screen.close)
+        self.assertIsNotNone(screen.shows("no timer runs", patience()), screen.text())
+        self.assertTrue(wait_until(lambda: self.asked.count("status") >= 3))
+        self.assertEqual(set(self.asked), {"status", "profile", "timers", "messages", "map"})
+        screen.press("l")
+        self.assertIsNotNone(screen.shows("nothing has happened", patience()), screen.text())
+        self.assertIn("log", self.asked)
+        screen.press("p")
+        self.assertIsNotNone(screen.shows("the mapping file has no pins", patience()), screen.text())
+        self.asked.clear()
+        self.assertTrue(wait_until(lambda: self.asked.count("status") >= 2))
+        self.assertNotIn("log", self.asked)
+        screen.press("q")
+        self.assertEqual(screen.end(patience()), OK)
+        serving.join(patience())
 
 
 class TopWithoutProfile(Host):

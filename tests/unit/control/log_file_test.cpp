@@ -203,7 +203,7 @@ TEST_F(LogFileTest, ANewFileHasWhatIsOnOnce) {
   EXPECT_TRUE(writes("\"DOOR\""));
   log.happen({.text = std::string(1900, 'x')}, now);
   EXPECT_TRUE(writes("xxx"));
-  for (int i = 0; i < 4; ++i) log.happen({.text = std::string(1900, 'x')}, now);
+  for (int i = 0; i < 5; ++i) log.happen({.text = std::string(1900, 'x')}, now);
   log.come({4, 0, 0}, "OIL", now, false); // in the text that does not fit any more
   EXPECT_TRUE(test::soon([&] { return tick(), fs::exists(olderLog(path)) && countOf(path, "\"OIL\"") != 0; }));
   EXPECT_EQ(countOf(path, "\"OIL\""), 1u);

@@ -42,6 +42,8 @@ Look lookOf(size_t many) {
                                      {"max_ns", 9.0}});
     look.messages.push_back({{"kind", "message"}, {"came", 0}, {"text", "Zav\xc5\x99\x65te kryt"}, {"on", true}});
     look.log->push_back({{"kind", "fault"}, {"came", int64_t{1} << 62}, {"text", ""}});
+    look.timers.push_back(
+        {{"name", "TMRB " + std::to_string(i)}, {"unit", "us"}, {"elapsed", i}, {"file", ""}, {"line", i}});
     look.pins.push_back({.name = "pin-" + std::to_string(i), .value = "true", .former = "false", .uses = "X0.0"});
   }
   return look;
@@ -85,6 +87,43 @@ TEST(Page, ThePinThatChangedLastIsFirst) {
   EXPECT_THAT(heading[2].text, HasSubstr("pin-1 "));
   EXPECT_THAT(heading[3].text, HasSubstr("pin-0 "));
   EXPECT_EQ(heading[3].style, Style::Faint);
+}
+
+TEST(Page, TimersThatRun) {
+  Look look = lookOf(0);
+  EXPECT_THAT(wholeText(look), HasSubstr("\nno timer runs\n"));
+  const json rung = {{"rung", 4}, {"file", "/plc/mill.pmc"}, {"line", 12}, {"title", "lamps"}};
+  look.timers = {
+      {{"name", "TMRB 12"}, {"unit", "us"}, {"elapsed", 12'304'000}, {"remaining", 27'696'000}, {"preset", 40'000'000}},
+      {{"name", "TIM T1,50"}, {"unit", "runs"}, {"elapsed", 12}, {"remaining", 38}, {"preset", 50}},
+      {{"name", "TIM T2"}, {"unit", "runs"}, {"elapsed", 3}}};
+  for (json& timer : look.timers) timer.update(rung);
+  EXPECT_THAT(wholeText(look),
+              HasSubstr("\nTIMERS that run:  elapsed, preset, remaining, rung\n"
+                        "TMRB 12                  12.304 s of     40.000 s     27.696 s left  mill.pmc:12  lamps\n"
+                        "TIM T1,50                 12 runs of      50 runs      38 runs left  mill.pmc:12  lamps\n"
+                        "TIM T2                     3 runs of            ?            ? left  mill.pmc:12  lamps\n"));
+}
+
+TEST(Page, WhatWaitsTooLongIsAnAlarm) {
+  Look look = lookOf(0);
+  json function = {{"function", "M"}, {"code", 6}, {"begun", true}, {"late", false}, {"us", 1'500'000}, {"since", 0}};
+  look.status["functions"]["oldest"] = {function, function};
+  look.status["functions"]["oldest"][1]["late"] = true;
+  look.status["functions"]["count"] = 2;
+  const std::vector<Line> page = pageOf(look, {.section = Section::Waiting}, "", 200, 24);
+  const auto heading = std::ranges::find_if(page, [](const Line& line) { return line.text.starts_with("WAITING"); });
+  ASSERT_LT(heading, page.end() - 2);
+  EXPECT_THAT(heading[1].text, HasSubstr("M6: not finished by the program for 1.500 s, since "));
+  EXPECT_EQ(heading[1].style, Style::Plain);
+  EXPECT_EQ(heading[2].style, Style::Alarm);
+}
+
+TEST(Page, ALogThatWasNeverAskedForIsNotEmpty) {
+  Look look = lookOf(0);
+  look.log.reset();
+  const std::vector<Line> page = pageOf(look, {.section = Section::Log}, "NO CONNECTION", 80, 24);
+  EXPECT_TRUE(std::ranges::any_of(page, [](const Line& line) { return line.text.starts_with("not known: "); }));
 }
 
 TEST(Page, WithoutCountersItSaysHowToGetThem) {

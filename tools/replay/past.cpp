@@ -258,6 +258,15 @@ std::string Past::goToTime(int64_t us) {
   return problem_;
 }
 
+// Whether nothing but the part lies between the states before and after it.
+bool Past::followsFromBefore(uint64_t part) const {
+  return std::ranges::none_of(contents_.landmarks, [&](const Landmark& landmark) {
+    const bool breaks = landmark.kind == Landmark::Kind::Start || landmark.kind == Landmark::Kind::Lost ||
+                        landmark.kind == Landmark::Kind::Damaged;
+    return breaks && landmark.part + 1 == part;
+  });
+}
+
 const Flow* Past::flow(const FlowEngine::AfterRun& afterRun) {
   const uint64_t here = part_;
   blockBefore_.clear();
@@ -270,7 +279,7 @@ const Flow* Past::flow(const FlowEngine::AfterRun& afterRun) {
   const Flow* flow = nullptr;
   if (from) {
     const std::span<const uint8_t> block = instance().block();
-    blockBefore_.assign(block.begin(), block.end());
+    if (followsFromBefore(here)) blockBefore_.assign(block.begin(), block.end());
     const uint32_t before = stageNumber_;
     keep();
     (void)goTo(here);

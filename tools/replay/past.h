@@ -98,6 +98,7 @@ private:
   bool playAgain();
   bool nextSegment();
   bool otherProgram();
+  bool followsFromBefore(uint64_t part) const;
   void keep();
   std::optional<Moment> present();
   void noteDifference();

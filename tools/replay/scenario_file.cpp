@@ -295,6 +295,7 @@ void noteEvents(const Past& past, uint64_t from, uint64_t to, std::vector<std::s
     case Event::Stopped: ++counts["stops and starts by the operator"]; break;
     case Event::Function:
     case Event::Abort: ++counts["functions that the host began or aborted"]; break;
+    case Event::Task: ++counts["runs of tasks by the control, such as those of a block of a part program"]; break;
     case Event::Answer:
     case Event::Reply: ++counts["answers to requests, which the simulated control gives in its own way"]; break;
     default: break;

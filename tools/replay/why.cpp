@@ -398,7 +398,8 @@ private:
   }
   // Who wrote it, as far as the recording says.
   Reason::Kind writer(const Cell& cell, const PartFacts& facts) {
-    Reason::Kind kind = cell.slot.valid() ? Reason::Kind::Outside : Reason::Kind::Control;
+    const bool controlRuns = past_.recording().mode == runtime::RecordingMode::Control && !cell.slot.valid();
+    Reason::Kind kind = controlRuns ? Reason::Kind::Control : Reason::Kind::Outside;
     for (const OutsideWrite& write : facts.outside) {
       bool touches = false;
       for (uint32_t i = 0; i < cell.bits.count && !touches && !cell.slot.valid(); ++i) {

@@ -220,7 +220,7 @@ private:
     return reason;
   }
 
-  // The byte of the block and the bit in it; nothing: it has none of its own.
+  // The byte of the block and the bit in it; nothing: it does not have one of its own.
   std::optional<std::pair<uint32_t, uint32_t>> blockBit(const Cell& cell, uint32_t i) {
     const uint32_t bit = cell.bits.first + i;
     const core::Place at = past_.instance().memory().locateBit(cell.bits.space.index, bit / 8, bit % 8);

@@ -263,7 +263,7 @@ bool Past::followsFromBefore(uint64_t part) const {
   return std::ranges::none_of(contents_.landmarks, [&](const Landmark& landmark) {
     const bool breaks = landmark.kind == Landmark::Kind::Start || landmark.kind == Landmark::Kind::Lost ||
                         landmark.kind == Landmark::Kind::Damaged;
-    return breaks && landmark.part + 1 == part;
+    return breaks && landmark.part + 1 == part && landmark.part > firstPart();
   });
 }
 

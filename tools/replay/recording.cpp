@@ -189,7 +189,7 @@ std::vector<OutsideWrite> outsideWrites(std::span<const uint8_t> events, size_t 
   return writes;
 }
 
-Contents::Contents(const Recording& recording, const See& see) {
+Contents::Contents(const Recording& recording, const See& see) : parts(recording.partsBefore) {
   for (uint32_t i = 0; i < recording.segments.size(); ++i) {
     segmentParts.push_back(parts);
     Skimmer(*this, i, recording.segments[i], see).run();

@@ -8,9 +8,11 @@ namespace rung::runtime {
 
 namespace {
 
+constexpr size_t kRest = 65'536; // room for events of a part that are not of bytes
+
 // Room for the events of one part: each watched byte with an event of its own, twice, and what else there may be.
 size_t partRoom(const RecordedBytes& bytes) {
-  constexpr size_t kRest = 65'536, kEvent = 12;
+  constexpr size_t kEvent = 12;
   return kRest + kEvent * (bytes.before.size() + 2 * bytes.within.size());
 }
 
@@ -80,6 +82,8 @@ void Recorder::begins(const Instance& instance, PartKind kind, uint32_t number) 
   putBefore(instance);
   if (stream_.isStateDue(instance.nowUs()) && instance.atListStart()) putState(instance);
   if (!stream_.whole()) return;
+  for (const std::string& text : marks_) putMark(text);
+  marks_.clear();
   stream_.begin(kind, number);
 }
 
@@ -111,8 +115,16 @@ void Recorder::written(const Instance& instance, uint32_t offset, uint32_t bytes
   putRun(stream_.events(), stream_.places(), {Event::Bytes, offset, bytes}, instance.block().data() + offset);
 }
 
-void Recorder::mark(std::string_view text) noexcept {
-  if (!stream_.whole()) return;
+void Recorder::mark(std::string_view text) {
+  if (stream_.whole())
+    putMark(text);
+  else
+    marks_.emplace_back(text);
+}
+
+// Left out rather than that it takes the room of what has to be recorded.
+void Recorder::putMark(std::string_view text) noexcept {
+  if (stream_.events().size() + text.size() > kRest / 2) return;
   stream_.events().put(Event::Mark, text.size());
   stream_.events().putBytes({reinterpret_cast<const uint8_t*>(text.data()), text.size()});
 }

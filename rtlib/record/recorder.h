@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -43,8 +44,8 @@ public:
   void changedWhole(const Instance& instance) noexcept override;
   // Another program runs; `bytes` are for it, and receive those of the former one. Null: nothing is recorded of it.
   void programChanged(std::unique_ptr<RecordedBytes>& bytes) noexcept;
-  // Between two parts.
-  void mark(std::string_view text) noexcept;
+  // Between two parts, but not in real time: one before the first state waits for it.
+  void mark(std::string_view text);
   // Makes all parts so far readable.
   void flush() noexcept { stream_.flush(); }
 
@@ -56,6 +57,7 @@ public:
 private:
   void beginsWithin(const Instance& instance, uint32_t task) noexcept;
   void putState(const Instance& instance) noexcept;
+  void putMark(std::string_view text) noexcept;
   size_t stateSize(const Instance& instance) const noexcept;
   void know(const Instance& instance) noexcept;
   void putBefore(const Instance& instance) noexcept;
@@ -72,6 +74,8 @@ private:
   bool stopped_ = false;
   bool faulted_ = false;
   std::span<const core::ForcedBits> forced_;
+
+  std::vector<std::string> marks_; // that wait for a state
 
   bool inPart_ = false;
   // Hooks and latches of the part. After a run of a task within one, the rest of it counts as another one.

@@ -328,6 +328,15 @@ std::optional<Moment> Past::beginning() {
   return last;
 }
 
+// Whether nothing but the part lies between the states before and after it.
+bool Past::followsFromBefore(uint64_t part) const {
+  return std::ranges::none_of(contents_.landmarks, [&](const Landmark& landmark) {
+    const bool breaks = landmark.kind == Landmark::Kind::Start || landmark.kind == Landmark::Kind::Lost ||
+                        landmark.kind == Landmark::Kind::Damaged;
+    return breaks && landmark.part + 1 == part && landmark.part > firstPart();
+  });
+}
+
 const Flow* Past::flow(const FlowEngine::AfterRun& afterRun) {
   const uint64_t here = part_;
   blockBefore_.clear();
@@ -339,7 +348,7 @@ const Flow* Past::flow(const FlowEngine::AfterRun& afterRun) {
     return nullptr;
   }
   const std::span<const uint8_t> block = instance().block();
-  blockBefore_.assign(block.begin(), block.end());
+  if (followsFromBefore(here)) blockBefore_.assign(block.begin(), block.end());
   keep(*from);
   (void)goTo(here);
   if (stageNumber_ != from->program) { // the part is of another program

@@ -104,6 +104,7 @@ private:
   bool playAgain();
   bool nextSegment();
   bool otherProgram();
+  bool followsFromBefore(uint64_t part) const;
   std::optional<Moment> present();
   std::optional<Moment> beginning();
   void keep(Moment moment);

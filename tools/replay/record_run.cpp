@@ -29,10 +29,11 @@ constexpr uint64_t kScansBetween = 512; // blocks of files
 
 } // namespace
 
-SessionRecorder::SessionRecorder(scenario::Session& session)
+SessionRecorder::SessionRecorder(scenario::Session& session, size_t mostBytes)
     : instance_(&session.instance()),
       recorder_(std::make_unique<runtime::Recorder>(*instance_, recordedBytes(instance_->program()),
-                                                    runtime::RecorderOptions{.ringBytes = kRing})) {
+                                                    runtime::RecorderOptions{.ringBytes = kRing})),
+      mostBytes_(mostBytes) {
   recording_.segments.emplace_back();
   instance_->setOutsideWatch(recorder_.get());
 }
@@ -65,9 +66,8 @@ void SessionRecorder::flush() {
   recorder_->flush();
   if (writer_) return writer_->look();
   core::ByteRing& ring = recorder_->ring();
-  std::vector<uint8_t>& events = recording_.segments.back().events;
   for (auto record = ring.front(); !record.empty(); record = ring.front()) {
-    events.insert(events.end(), record.begin(), record.end());
+    take(record);
     ring.pop();
   }
 }
@@ -79,6 +79,24 @@ void SessionRecorder::setPaused(bool paused) {
 
 void SessionRecorder::scanned(const scenario::Session&) {
   if (!paused_) drain();
+}
+
+// A record with a state begins with its program: what is before it can go.
+void SessionRecorder::take(std::span<const uint8_t> record) {
+  constexpr size_t kPieces = 16; // of which the oldest goes
+  std::vector<Segment>& segments = recording_.segments;
+  const bool isState = static_cast<runtime::Event>(record.front()) == runtime::Event::Program;
+  if (isState && segments.back().events.size() > mostBytes_ / kPieces) segments.emplace_back();
+  std::vector<uint8_t>& events = segments.back().events;
+  events.insert(events.end(), record.begin(), record.end());
+  usedBytes_ += record.size();
+  while (usedBytes_ > mostBytes_ && segments.size() > 1) {
+    usedBytes_ -= segments.front().events.size();
+    Recording gone;
+    gone.segments.push_back(std::move(segments.front()));
+    segments.erase(segments.begin());
+    recording_.partsBefore += Contents(gone).parts;
+  }
 }
 
 void SessionRecorder::executing(const scenario::Session&, const scenario::Statement& statement) {

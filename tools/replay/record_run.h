@@ -15,8 +15,8 @@ namespace rung::replay {
 // statements are its marks.
 class SessionRecorder final : public scenario::Observer {
 public:
-  // In memory.
-  explicit SessionRecorder(scenario::Session& session);
+  // In memory, of which it uses so much: the oldest parts go then.
+  explicit SessionRecorder(scenario::Session& session, size_t mostBytes = size_t{256} << 20);
   // Into a folder, which is made. `program` is that of the session, with its module as built. Throws
   // std::runtime_error if the folder cannot be used.
   SessionRecorder(scenario::Session& session, const std::string& folder, const compiler::Compiled& program);
@@ -39,6 +39,7 @@ public:
 private:
   void drain();
   void flush();
+  void take(std::span<const uint8_t> record);
   void add(const compiler::Compiled& program);
 
   runtime::Instance* instance_;
@@ -48,6 +49,8 @@ private:
   std::unique_ptr<runtime::RecordedBytes> bytes_;    // of the former program
   uint64_t scans_ = 0;
   bool paused_ = false;
+  size_t mostBytes_;
+  size_t usedBytes_ = 0;
   Recording recording_;
 };
 

@@ -219,7 +219,10 @@ std::vector<OutsideWrite> outsideWrites(std::span<const uint8_t> before, std::sp
 }
 
 void Contents::grow(const Recording& recording, const See& see) {
-  if (segmentParts.empty() && !recording.segments.empty()) segmentParts.push_back(0);
+  if (segmentParts.empty() && !recording.segments.empty()) {
+    parts = recording.partsBefore;
+    segmentParts.push_back(parts);
+  }
   while (!segmentParts.empty()) {
     const auto last = static_cast<uint32_t>(segmentParts.size() - 1);
     const Segment& segment = recording.segments[last];

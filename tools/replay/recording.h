@@ -27,6 +27,7 @@ struct Segment {
 struct Recording {
   std::vector<Segment> segments;
   uint32_t firstSegment = 0; // those before it have been dropped, and are empty
+  uint64_t partsBefore = 0;  // that came before and are no longer in it
   // Compiled with marks and their modules as built (CompileRequest::marks, keepBuilt); the first one first.
   std::vector<std::shared_ptr<const compiler::Compiled>> programs;
   runtime::RecordingMode mode = runtime::RecordingMode::Bytes;

@@ -143,7 +143,7 @@ public:
                                       nc::describe(program_, runtime::bitRef(space, bit / 8, bit % 8))));
     }
     lacks(midScan_, "values written within a scan, which are set before the scan after it");
-    lacks(otherParts_, "parts that are no scan or slot: of a power-off, single tasks, a stop by the host");
+    lacks(otherParts_, "parts other than scans and slots: of a power-off, single tasks, a stop by the host");
   }
 
 private:
@@ -257,7 +257,7 @@ void putProgram(const Past& past, const std::string& path, std::string& text) {
   text += "\n";
 }
 
-// "" or why these parts are no scenario.
+// "" or why there is no scenario of these parts.
 std::string rangeProblem(const Past& past, uint64_t from, uint64_t to) {
   bool starts = from == past.firstPart();
   for (const Landmark& landmark : past.contents().landmarks) {
@@ -295,6 +295,7 @@ void noteEvents(const Past& past, uint64_t from, uint64_t to, std::vector<std::s
     case Event::Stopped: ++counts["stops and starts by the operator"]; break;
     case Event::Function:
     case Event::Abort: ++counts["functions that the host began or aborted"]; break;
+    case Event::Task: ++counts["runs of tasks by the control, such as those of a block of a part program"]; break;
     case Event::Answer:
     case Event::Reply: ++counts["answers to requests, which the simulated control gives in its own way"]; break;
     default: break;

@@ -220,7 +220,7 @@ private:
     return reason;
   }
 
-  // The byte of the block and the bit in it; nothing: it has none of its own.
+  // The byte of the block and the bit in it; nothing: it does not have one of its own.
   std::optional<std::pair<uint32_t, uint32_t>> blockBit(const Cell& cell, uint32_t i) {
     const uint32_t bit = cell.bits.first + i;
     const core::Place at = past_.instance().memory().locateBit(cell.bits.space.index, bit / 8, bit % 8);
@@ -398,7 +398,8 @@ private:
   }
   // Who wrote it, as far as the recording says.
   Reason::Kind writer(const Cell& cell, const PartFacts& facts) {
-    Reason::Kind kind = cell.slot.valid() ? Reason::Kind::Outside : Reason::Kind::Control;
+    const bool controlRuns = past_.recording().mode == runtime::RecordingMode::Control && !cell.slot.valid();
+    Reason::Kind kind = controlRuns ? Reason::Kind::Control : Reason::Kind::Outside;
     for (const OutsideWrite& write : facts.outside) {
       bool touches = false;
       for (uint32_t i = 0; i < cell.bits.count && !touches && !cell.slot.valid(); ++i) {

@@ -406,7 +406,7 @@ private:
   scenario::Watch watch_{print_};
   std::unique_ptr<RetainedFiles> retained_;
   std::unique_ptr<replay::SessionRecorder> recorder_; // null: nothing is recorded
-  std::unique_ptr<replay::SessionPast> past_;         // null: nobody asks
+  std::unique_ptr<replay::SessionPast> past_;         // null: there is no prompt
   std::unique_ptr<scenario::Trace> trace_;
   std::unique_ptr<scenario::Explainer> explainer_; // set once the session has started
 };

@@ -208,6 +208,37 @@ TEST_F(Damage, ReorderedEventsDoNoHarm) {
   }
 }
 
+// ---- in memory ---------------------------------------------------------------------------------------------------
+
+TEST(InMemory, TheOldestPartsGoAndTheOthersKeepTheirNumbers) {
+  const scenario::Scenario scenario = scenario::parse(
+      "examples/gsk-panel/x.scn", "program panel.lad\nset X_ESP 1\nscan 9000\nset X_ESP 0\nscan 1000\nexpect *ESP 0\n");
+  std::unique_ptr<SessionRecorder> recorder;
+  std::shared_ptr<const compiler::Compiled> program;
+  Recording recording;
+  scenario::RunOptions options{.engines = {compiler::EngineKind::Interp}};
+  options.marks = true;
+  options.started = [&](scenario::Session& session, const compiler::Compiled& compiled) {
+    recorder = std::make_unique<SessionRecorder>(session, 100);
+    session.addObserver(*recorder);
+    program = std::shared_ptr<const compiler::Compiled>(std::shared_ptr<void>(), &compiled);
+    return std::string();
+  };
+  options.ended = [&](scenario::Session&) {
+    recording = recorder->take();
+    recording.programs = {program};
+    const auto past = open(recording);
+    EXPECT_EQ(past->contents().parts, 10'000u);
+    EXPECT_GT(past->firstPart(), 8000u);
+    EXPECT_LT(past->firstPart(), 10'000u);
+    Console console(*past, [](const std::string&) {});
+    const std::string words[] = {"*ESP @ 9500"};
+    EXPECT_THAT(console.why(words, false).value(), HasSubstr("= 0, since scan 9001, 72.008 s"));
+    EXPECT_NE(past->goTo(100), "");
+  };
+  EXPECT_TRUE(scenario::run(scenario, options).passed);
+}
+
 // ---- as scenarios ------------------------------------------------------------------------------------------------
 
 TEST(ScenarioFile, DoesTheSame) {
@@ -265,7 +296,12 @@ TEST(HostRecording, IsPlayedWithItsControlFromAnyPlace) {
   const std::string words[] = {"LATE @ 190"};
   const Result<std::string> why = console.why(words, false);
   ASSERT_TRUE(why.ok()) << why.error();
-  EXPECT_THAT(why.value(), HasSubstr("GO (X0.0) = 1, since scan 101"));
+  EXPECT_THAT(why.value(), HasSubstr("GO (X0.0) = 1, since scan 101, 0.808 s\n    an input, written by the machine"));
+  const std::string written[] = {"COUNT @ 1000"};
+  EXPECT_EQ(console.why(written, false).value(),
+            fmt::format("COUNT (D100) = 42 (0x2A), since scan {}, 5.608 s\n"
+                        "    written by a person or another program, through the host",
+                        RecordedHost::kWritten + 1));
 }
 
 // A program that was prepared before the recording began is not recorded, which the recording says; what runs before

@@ -47,6 +47,8 @@ struct RecordedHost {
       "FUNC END1\n; lamp\nLD GO\nANI R0.0\nOUT LAMP\n"
       "; late\nLD LAMP\nFUNC TMRB\nPRM 1\nPRM 40\nOUT LATE\nFUNC END2\n";
 
+  static constexpr int kWritten = 700; // the scan before which a client writes COUNT
+
   explicit RecordedHost(const std::string& folder, int scans = 1500) : program(kProgram) {
     const rung::Image image = rung::Image::adopt(program.engine->program(), program.engine->context());
     rung::Instance instance(image);
@@ -57,6 +59,7 @@ struct RecordedHost {
     instance.powerOn(rung::Power::Cold);
     for (int scan = 0; scan < scans; ++scan) {
       go = scan / 100 % 2;
+      if (scan == kWritten) instance.write<int64_t>(instance.find("COUNT", RUNG_WRITE), 42); // as a client does
       EXPECT_EQ(instance.scan(), RUNG_OK);
       lamps.push_back(static_cast<uint8_t>(instance.read<int64_t>(instance.find("LAMP"))));
       lates.push_back(static_cast<uint8_t>(instance.read<int64_t>(instance.find("LATE"))));

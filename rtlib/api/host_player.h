@@ -29,65 +29,43 @@ private:
   rung_forced_code code_{};
 };
 
-class HostPlayer {
+class HostPlayer : public runtime::Player {
 public:
   // Makes an instance of the program of `image`, by whatever engine. `owner` outlives the player. Throws
   // std::runtime_error if the library refuses the image.
   HostPlayer(rung_image* image, runtime::PlayerOwner& owner);
-  ~HostPlayer();
-  HostPlayer(const HostPlayer&) = delete;
-  HostPlayer& operator=(const HostPlayer&) = delete;
+  ~HostPlayer() override;
 
   // Messages of the program are in the queue of the instance after each part.
-  rung_instance* instance() { return instance_; }
-  runtime::Instance& running() { return instance_->running; }
-
-  // As in runtime::Player.
-  void setEvents(std::span<const uint8_t> events);
-  size_t position() const { return reader_.position(); }
-  runtime::Played play();
-  uint64_t repeatsLeft() const { return repeats_; }
-  runtime::PartKind lastKind() const { return kind_; }
-  uint32_t lastNumber() const { return number_; }
-  const std::optional<runtime::PlayedDifference>& difference() const { return difference_; }
-  // Events by which another player gets the present state, up to their end; empty within a scan, and before a state.
-  std::vector<uint8_t> state();
-  bool isWhole() const { return whole_; }
+  runtime::Instance& instance() override { return instance_->running; }
 
 private:
   static int32_t request(void* player, rung_instance* instance, const rung_request* request, rung_reply* reply);
   int32_t decide(const rung_request& request, rung_reply& reply);
-  bool isNext(runtime::Event event) const { return !reader_.atEnd() && reader_.next() == event; }
-  runtime::Played damaged();
-  runtime::Played playState();
-  runtime::Played playPart();
-  void compareState(std::span<const uint8_t> recorded);
-  void compareOutcome();
-  bool takeBefore(runtime::Event event);
+
+  bool save(core::Saver& saver) const override;
+  runtime::LoadResult load(core::Loader& loader) override;
+  size_t roomForOthers() const override;
+  void putBeforeState(runtime::EventWriter& writer) const override;
+  void putAfterState(runtime::EventWriter& writer) const override { inputs_->listKnown(writer); }
+  void beforeComparison() override { inputs_->write(instance().block().data()); }
+  bool takeOther(runtime::Event event) override;
+  bool mayRun(runtime::PartKind kind) const override { return kind != runtime::PartKind::Task; } // no part of a host
+  void run() override;
+  void compareOutcome() override;
+
   bool takeSurroundings();
   bool takeConfigured();
+  bool configure(const Configured& what);
   bool takeInputs();
-  bool takeForces();
+  bool takeInput();
   bool takeFunction();
-  std::optional<core::ServiceReply> takeReply();
-  void run();
 
-  runtime::PlayerOwner& owner_;
   rung_instance* instance_ = nullptr;
-  runtime::EventReader reader_{{}};
   std::optional<runtime::InputBits> inputs_, nextInputs_; // those of the next state
   std::vector<Configured> configured_;                    // that the control has
-  runtime::BlockBytes bits_;
   bool neededOnly_ = false;
-  bool served_ = false;
-  bool whole_ = false;
-  bool failed_ = false;
-  bool wasFaulted_ = false;
-  bool otherRequests_ = false;                       // the program has asked for something that it had not asked for
-  runtime::PartKind kind_ = runtime::PartKind::Scan; // of the last part
-  uint32_t number_ = 0;
-  uint64_t repeats_ = 0; // that are left
-  std::optional<runtime::PlayedDifference> difference_;
+  bool otherRequests_ = false; // the program has asked for something that it had not asked for
 };
 
 } // namespace rung::api

@@ -11,12 +11,16 @@ namespace rung::api {
 
 using runtime::Event;
 using runtime::EventWriter;
+using runtime::putForces;
+using runtime::putReply;
 using runtime::zigzag;
 
 namespace {
 
 // Room for the events of one part: each input with an event of its own, and what else there may be.
 constexpr size_t kPartRoom = 262'144;
+
+} // namespace
 
 void putConfiguration(EventWriter& writer, const Configured& of) noexcept {
   writer.put(Event::Configured, static_cast<uint8_t>(of.kind), of.a, of.b, of.c, of.text.size());
@@ -29,17 +33,6 @@ size_t roomFor(const std::vector<Configured>& all) noexcept {
   for (const Configured& one : all) room += kEach + one.text.size();
   return room;
 }
-
-void putForces(EventWriter& writer, std::span<const core::ForcedBits> forced) noexcept {
-  writer.put(Event::Forces, forced.size());
-  for (const core::ForcedBits& bits : forced) {
-    writer.putNumber(bits.offset);
-    writer.putNumber(bits.mask);
-    writer.putNumber(bits.value);
-  }
-}
-
-} // namespace
 
 // Ones written to a block of zeros are the bits of the cell.
 std::unique_ptr<runtime::InputBits> inputBits(const rung_instance& instance, const Generation& generation) {
@@ -133,36 +126,11 @@ void HostRecorder::partBegins(runtime::PartKind kind, uint32_t number, bool with
   stream_.begin(kind, number);
 }
 
-// Neighbouring bytes are one event.
 void HostRecorder::putInputs() noexcept {
   const uint8_t* block = running_.block().data();
-  uint32_t first = 0, count = 0;
-  const auto put = [&] {
-    if (count == 0) return;
-    events().put(Event::Input, first, count);
-    events().putBytes({block + first, count});
-  };
-  inputs_->compare(block, [&](uint32_t offset) noexcept {
-    if (count != 0 && offset == first + count) {
-      ++count;
-      return;
-    }
-    put();
-    first = offset;
-    count = 1;
-  });
-  put();
+  runtime::ByteRuns runs(events(), Event::Input, block);
+  inputs_->compare(block, [&](uint32_t offset) noexcept { runs.add(offset); });
 }
-
-namespace {
-
-void putReply(EventWriter& writer, Event event, const core::ServiceReply& reply) noexcept {
-  const uint32_t count = std::min(reply.resultCount, RUNG_MAX_SERVICE_ARGS);
-  writer.put(event, reply.ticket, reply.state, count);
-  for (uint32_t i = 0; i < count; ++i) writer.putNumber(zigzag(reply.results[i]));
-}
-
-} // namespace
 
 void HostRecorder::replied(const core::ServiceReply& reply) noexcept {
   if (!stream_.whole()) return;

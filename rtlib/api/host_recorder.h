@@ -30,6 +30,9 @@ struct Configured {
   std::string text = {};
   bool operator==(const Configured&) const = default;
 };
+// Event::Configured, and the bytes that it takes at most.
+void putConfiguration(runtime::EventWriter& writer, const Configured& of) noexcept;
+size_t roomFor(const std::vector<Configured>& all) noexcept;
 
 // The bits that the bound variables of an instance write in one of its programs. Not in real time.
 std::unique_ptr<runtime::InputBits> inputBits(const rung_instance& instance, const Generation& generation);

@@ -1,9 +1,13 @@
 // What a recording consists of: events in the order in which they happened to the program, each a byte and its numbers
 // (docs/recording.md). Numbers are unsigned and take as few bytes as they need, seven bits a byte, lowest first.
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <span>
+
+#include "rtlib/core/queues.h"
+#include "rtlib/core/runner.h"
 
 namespace rung::runtime {
 
@@ -147,5 +151,54 @@ inline uint64_t zigzag(int64_t value) noexcept {
 inline int64_t unzigzag(uint64_t number) noexcept {
   return static_cast<int64_t>(number >> 1) ^ -static_cast<int64_t>(number & 1);
 }
+
+// ---- what several of those who write events have in common -------------------------------------------------------
+
+// Event::Forces; `roomForForces` is its size at most.
+inline size_t roomForForces(std::span<const core::ForcedBits> forced) noexcept { return 16 + 12 * forced.size(); }
+inline void putForces(EventWriter& writer, std::span<const core::ForcedBits> forced) noexcept {
+  writer.put(Event::Forces, forced.size());
+  for (const core::ForcedBits& bits : forced) {
+    writer.putNumber(bits.offset);
+    writer.putNumber(bits.mask);
+    writer.putNumber(bits.value);
+  }
+}
+
+// Event::Reply or Event::Answer.
+inline void putReply(EventWriter& writer, Event event, const core::ServiceReply& reply) noexcept {
+  const uint32_t count = std::min(reply.resultCount, RUNG_MAX_SERVICE_ARGS);
+  writer.put(event, reply.ticket, reply.state, count);
+  for (uint32_t i = 0; i < count; ++i) writer.putNumber(zigzag(reply.results[i]));
+}
+
+// Joins bytes of a memory block, which come with ascending offsets, to runs, each of which is an event (OFFSET COUNT
+// BYTES).
+class ByteRuns {
+public:
+  ByteRuns(EventWriter& writer, Event event, const uint8_t* block) noexcept
+      : writer_(writer), event_(event), block_(block) {}
+  ByteRuns(const ByteRuns&) = delete;
+  ByteRuns& operator=(const ByteRuns&) = delete;
+  ~ByteRuns() { put(); }
+
+  void add(uint32_t offset) noexcept {
+    if (count_ != 0 && offset != first_ + count_) put();
+    if (count_ == 0) first_ = offset;
+    ++count_;
+  }
+
+private:
+  void put() noexcept {
+    if (count_ == 0) return;
+    writer_.put(event_, first_, count_);
+    writer_.putBytes({block_ + first_, count_});
+    count_ = 0;
+  }
+  EventWriter& writer_;
+  Event event_;
+  const uint8_t* block_;
+  uint32_t first_ = 0, count_ = 0;
+};
 
 } // namespace rung::runtime

@@ -63,14 +63,16 @@ public:
       std::memcpy(block + piece.offset, &words, sizeof words);
     }
   }
-  // Writes what is known as events (Event::Input).
+  // Writes what is known as events (Event::Input); `listedKnown`: the room for that.
   void listKnown(EventWriter& writer) const noexcept;
+  size_t listedKnown() const noexcept { return pieces_.size() * (kPiece + kEvent); }
   // From now on these bytes are known, from `offset` on.
   void set(uint64_t offset, std::span<const uint8_t> bytes) noexcept;
 
 private:
   static constexpr uint32_t kPiece = 16; // bytes that are compared at once
   static constexpr size_t kStep = 4;     // pieces of which the comparison makes one step
+  static constexpr size_t kEvent = 12;   // bytes of an event beside those that it writes, at most
   using Words = uint64_t __attribute__((vector_size(kPiece)));
   struct Piece {
     Words known, mask;

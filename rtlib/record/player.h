@@ -1,11 +1,12 @@
-// The player: runs a program again as a recording says (recorder.h), part by part, and compares what it does with what
-// it did then. The program may run on any engine. Not for real time.
+// The player: runs a program again as a recording says, part by part, and compares what it does with what it did then.
+// The program may run on any engine. Not for real time. What the kinds of recordings have in common; bytes_player.h
+// plays what a Recorder has recorded, rtlib/api/host_player.h what a HostRecorder has.
 #pragma once
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
-#include <string>
+#include <string_view>
 #include <vector>
 
 #include "rtlib/record/events.h"
@@ -44,13 +45,14 @@ private:
   std::unique_ptr<Forcing> forcing_;
 };
 
-class Player final : public ScheduleHooks {
+class Player {
 public:
-  // The instance has the player as its hooks from now on. Both outlive it.
-  Player(Instance& instance, PlayerOwner& owner);
-  ~Player() override;
+  virtual ~Player() = default;
   Player(const Player&) = delete;
   Player& operator=(const Player&) = delete;
+
+  virtual Instance& instance() = 0;
+  const Instance& instance() const { return const_cast<Player*>(this)->instance(); }
 
   // Plays these events next, which outlive their use. A whole state must come before the first part.
   void setEvents(std::span<const uint8_t> events);
@@ -63,50 +65,61 @@ public:
   uint32_t lastNumber() const { return number_; } // of its task or fault
   // What was different in the last call; nothing if all was as recorded.
   const std::optional<PlayedDifference>& difference() const { return difference_; }
-  // Whether outputs are compared after each part, as they are at first; states are in any case.
-  void compareOutputs(bool compares);
+  // Whether outputs are compared after each part, where the recording has them; states are in any case.
+  virtual void compareOutputs(bool compares) { (void)compares; }
   // The state that the recording has at this place is compared with that of the instance, if there is one.
   bool isWhole() const { return whole_; }
+  // Events by which another player gets the present state, up to their end. Empty within a scan, and before a state.
+  std::vector<uint8_t> state() const;
 
-  uint32_t works() const override { return surroundings_.works; }
-  void onHook(Instance&, uint32_t) override { within(); }
-  void onFault(Instance&) override { within(); }
-  void onLatch(Instance&, uint32_t) override { within(); }
-  bool respond(Instance& instance, const core::ServiceRequest& request, core::ServiceReply& reply) override;
+protected:
+  // The owner outlives the player.
+  explicit Player(PlayerOwner& owner) : owner_(owner) {}
+  void beginWith(const rung_program& program) { bits_ = bitBytes(program); } // when the instance exists
 
-private:
+  // What the kinds of recordings do in their own ways.
+  virtual bool save(core::Saver& saver) const = 0;
+  virtual LoadResult load(core::Loader& loader) = 0;
+  // Events of a state before and after the one that has its bytes, and their size at most.
+  virtual size_t roomForOthers() const { return 0; }
+  virtual void putBeforeState(EventWriter& writer) const = 0;
+  virtual void putAfterState(EventWriter& writer) const { (void)writer; }
+  // Before and during a comparison with a recorded state: whether this byte of the block matters.
+  virtual void beforeComparison() {}
+  virtual bool matters(size_t offset) const { return (void)offset, true; }
+  virtual bool takeOther(Event event) = 0; // an event before a part
+  virtual bool mayRun(PartKind kind) const = 0;
+  virtual void run() = 0;            // the last part, again or for the first time
+  virtual void compareOutcome() = 0; // of it, but for its fault
+
   bool isNext(Event event) const { return !reader_.atEnd() && reader_.next() == event; }
-  Played damaged();
-  Played playState();
-  Played playPart();
-  bool takeBefore(Event event);
-  bool takeSurroundings();
-  bool takeForces();
-  bool takeBytes();
-  bool takeReplies();
-  bool takeRequest();
+  bool takeReplies(); // those that follow
   std::optional<core::ServiceReply> takeReply();
   bool takeList(int64_t* values, uint32_t count);
-  void run();
-  void compareOutcome();
-  void compareState(std::span<const uint8_t> recorded);
-  void within();
+  bool takeBytes(uint64_t& offset, std::span<const uint8_t>& bytes); // for the block
+  bool takeBytes();
+  void differs(PlayedDifference::Kind kind) { difference_ = PlayedDifference{.kind = kind}; }
 
-  Instance& instance_;
-  PlayerOwner& owner_;
   EventReader reader_{{}};
-  Surroundings surroundings_;
-  BlockBytes written_; // by the program
-  BlockBytes bits_;
-  std::optional<WatchedBytes> outputs_;
-  uint32_t outputsHash_ = 0;
-  bool comparesOutputs_ = true;
   bool whole_ = false;
   bool failed_ = false;
   PartKind kind_ = PartKind::Scan; // of the last part
   uint32_t number_ = 0;
+
+private:
+  Played damaged();
+  Played playState();
+  Played playPart();
+  bool takeBefore(Event event);
+  bool takeForces();
+  bool takeMark();
+  void compareState(std::span<const uint8_t> recorded);
+  Played runAndCompare();
+  void compareFault(bool wasFaulted);
+
+  PlayerOwner& owner_;
+  BlockBytes bits_;
   uint64_t repeats_ = 0; // that are left
-  uint32_t within_ = 0;
   std::optional<PlayedDifference> difference_;
 };
 

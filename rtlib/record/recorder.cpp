@@ -14,43 +14,8 @@ size_t partRoom(const RecordedBytes& bytes) {
   return kRest + kEvent * (bytes.before.size() + 2 * bytes.within.size());
 }
 
-// Joins bytes of the block to runs, each of which is an event.
-class ByteRuns {
-public:
-  ByteRuns(EventWriter& writer, const uint8_t* block) noexcept : writer_(&writer), block_(block) {}
-  ByteRuns(const ByteRuns&) = delete;
-  ByteRuns& operator=(const ByteRuns&) = delete;
-  ~ByteRuns() { put(); }
-
-  void add(uint32_t offset) noexcept {
-    if (count_ != 0 && offset != first_ + count_) put();
-    if (count_ == 0) first_ = offset;
-    ++count_;
-  }
-
-private:
-  void put() noexcept {
-    if (count_ == 0) return;
-    writer_->put(Event::Bytes, first_, count_);
-    writer_->putBytes({block_ + first_, count_});
-    count_ = 0;
-  }
-  EventWriter* writer_;
-  const uint8_t* block_;
-  uint32_t first_ = 0, count_ = 0;
-};
-
 bool sameForces(std::span<const core::ForcedBits> a, std::span<const core::ForcedBits> b) noexcept {
   return a.data() == b.data() && a.size() == b.size();
-}
-
-void putForces(EventWriter& writer, std::span<const core::ForcedBits> forced) noexcept {
-  writer.put(Event::Forces, forced.size());
-  for (const core::ForcedBits& bits : forced) {
-    writer.putNumber(bits.offset);
-    writer.putNumber(bits.mask);
-    writer.putNumber(bits.value);
-  }
 }
 
 void putSurroundings(EventWriter& writer, const Surroundings& of) noexcept {
@@ -130,17 +95,11 @@ void Recorder::putBefore(const Instance& instance) noexcept {
 void Recorder::putChanges(const Instance& instance, WatchedBytes& watched) noexcept {
   const uint8_t* block = instance.block().data();
   if (watched.isAsKnown(block)) return;
-  ByteRuns runs(stream_.events(), block);
+  ByteRuns runs(stream_.events(), Event::Bytes, block);
   watched.compare(block, [&](uint32_t offset) noexcept {
     putWithin();
     runs.add(offset);
   });
-}
-
-void Recorder::putReply(Event event, const core::ServiceReply& reply) noexcept {
-  const uint32_t count = std::min(reply.resultCount, RUNG_MAX_SERVICE_ARGS);
-  stream_.events().put(event, reply.ticket, reply.state, count);
-  for (uint32_t i = 0; i < count; ++i) stream_.events().putNumber(zigzag(reply.results[i]));
 }
 
 void Recorder::surroundingsChanged(const Instance& instance) noexcept {
@@ -197,7 +156,7 @@ void Recorder::replied(const Instance&, const core::ServiceReply& reply) noexcep
   if (!stream_.whole()) return;
   if (inPart_) stream_.putPart();
   putWithin();
-  putReply(Event::Reply, reply);
+  putReply(stream_.events(), Event::Reply, reply);
 }
 
 void Recorder::requested(const Instance& instance, const core::ServiceRequest& request,
@@ -210,7 +169,7 @@ void Recorder::requested(const Instance& instance, const core::ServiceRequest& r
     stream_.events().put(Event::Request, request.service, request.argCount);
     for (uint32_t i = 0; i < request.argCount; ++i) stream_.events().putNumber(zigzag(request.args[i]));
   }
-  if (reply != nullptr) putReply(Event::Answer, *reply);
+  if (reply != nullptr) putReply(stream_.events(), Event::Answer, *reply);
 }
 
 // ---- after a part ------------------------------------------------------------------------------------------------

@@ -1,5 +1,5 @@
 // The recorder: writes down what others do to a program while it runs, from which everything that the program did can
-// be computed again, by any engine, on any machine (player.h). Of what the program does it writes down only when its
+// be computed again, by any engine, on any machine (bytes_player.h). Of what the program does it writes down only when its
 // outputs have changed, and a hash of them, so that a difference is found.
 //
 // It belongs to the scan thread, allocates nothing after its construction, and never waits: what finds no room in the
@@ -62,7 +62,6 @@ private:
   void putChanges(const Instance& instance, WatchedBytes& watched) noexcept;
   void enterWithin(const Instance& instance) noexcept;
   void putWithin() noexcept;
-  void putReply(Event event, const core::ServiceReply& reply) noexcept;
   void putOutcome(const Instance& instance) noexcept;
 
   PartStream stream_;

@@ -13,7 +13,7 @@ namespace rung::runtime {
 
 enum class RecordingMode : uint32_t {
   Control = 1, // what the host did; the control of the dialect runs again (api::HostPlayer)
-  Bytes = 2,   // what hooks wrote, too (Player)
+  Bytes = 2,   // what hooks wrote, too (BytesPlayer)
 };
 
 // At the beginning of a segment; all numbers are little-endian.

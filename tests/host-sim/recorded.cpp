@@ -80,11 +80,11 @@ private:
     (void)reader.takeEvent();
     const uint64_t hash = reader.takeNumber();
     for (now_ = 0; now_ < versions_.size(); ++now_)
-      if (now().running().program().code_hash == hash) return true;
+      if (now().instance().program().code_hash == hash) return true;
     return false;
   }
   std::string placeOf(uint32_t offset) {
-    const rung_program& program = now().running().program();
+    const rung_program& program = now().instance().program();
     const std::optional<runtime::LogicalByte> byte = runtime::byteAt(program, offset);
     return byte ? std::string(program.spaces[byte->space].name) + " " + std::to_string(byte->byte)
                 : std::to_string(offset);

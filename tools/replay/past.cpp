@@ -92,7 +92,7 @@ bool Past::resume(const Moment& moment) {
 }
 
 std::optional<Moment> Past::present() {
-  AnyPlayer& player = stage().player();
+  runtime::Player& player = stage().player();
   std::vector<uint8_t> state = player.state();
   if (state.empty()) return std::nullopt;
   const bool again = again_ != 0;

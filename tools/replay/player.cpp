@@ -2,81 +2,35 @@
 #include "tools/replay/player.h"
 
 #include "rtlib/api/host_player.h"
+#include "rtlib/record/bytes_player.h"
 #include "rung/runtime.hpp"
 
 namespace rung::replay {
 namespace {
 
-using runtime::Event;
-using runtime::EventWriter;
-
-// What both players have.
-template <class Of>
-class Wrapped : public AnyPlayer {
-public:
-  void setEvents(std::span<const uint8_t> events) override { of().setEvents(events); }
-  size_t position() const override { return of().position(); }
-  runtime::Played play() override { return of().play(); }
-  const std::optional<runtime::PlayedDifference>& difference() const override { return of().difference(); }
-  uint64_t repeatsLeft() const override { return of().repeatsLeft(); }
-  runtime::PartKind lastKind() const override { return of().lastKind(); }
-  uint32_t lastNumber() const override { return of().lastNumber(); }
-
-protected:
-  virtual Of& of() = 0;
-  const Of& of() const { return const_cast<Wrapped*>(this)->of(); }
+// What the players need is made before them.
+struct OwnInstance {
+  explicit OwnInstance(runtime::Engine& engine) : own(engine) {}
+  runtime::Instance own;
+};
+struct OwnImage {
+  explicit OwnImage(runtime::Engine& engine) : image(rung::Image::adopt(engine.program(), engine.context())) {}
+  rung::Image image;
 };
 
-class BytesPlayer final : public Wrapped<runtime::Player> {
-public:
-  BytesPlayer(runtime::Engine& engine, runtime::PlayerOwner& owner) : instance_(engine), player_(instance_, owner) {}
-  runtime::Instance& instance() override { return instance_; }
-  void compareOutputs(bool compares) override { player_.compareOutputs(compares); }
-  std::vector<uint8_t> state() override {
-    core::Saver counted({});
-    if (!instance_.save(counted)) return {};
-    const std::span<const core::ForcedBits> forced = instance_.forcedBits();
-    constexpr size_t kNumber = 10; // bytes of one, at most
-    std::vector<uint8_t> events((8 + 3 * forced.size()) * kNumber + counted.size());
-    EventWriter writer(events);
-    const runtime::Surroundings around = instance_.surroundings();
-    writer.put(Event::Surroundings, around.works, around.latches, around.neededOnly);
-    writer.put(Event::Forces, forced.size());
-    for (const core::ForcedBits& bits : forced)
-      writer.putNumber(bits.offset), writer.putNumber(bits.mask), writer.putNumber(bits.value);
-    writer.put(Event::State, counted.size());
-    core::Saver saver(writer.rest());
-    (void)instance_.save(saver);
-    events.resize(writer.size() + counted.size());
-    return events;
-  }
-
-private:
-  runtime::Player& of() override { return player_; }
-  runtime::Instance instance_;
-  runtime::Player player_;
+struct OfBytes final : private OwnInstance, public runtime::BytesPlayer {
+  OfBytes(runtime::Engine& engine, runtime::PlayerOwner& owner) : OwnInstance(engine), BytesPlayer(own, owner) {}
 };
-
-class ControlPlayer final : public Wrapped<api::HostPlayer> {
-public:
-  ControlPlayer(runtime::Engine& engine, runtime::PlayerOwner& owner)
-      : image_(rung::Image::adopt(engine.program(), engine.context())), player_(image_.handle(), owner) {}
-  runtime::Instance& instance() override { return player_.running(); }
-  void compareOutputs(bool) override {} // of such a recording only states are compared
-  std::vector<uint8_t> state() override { return player_.state(); }
-
-private:
-  api::HostPlayer& of() override { return player_; }
-  rung::Image image_;
-  api::HostPlayer player_;
+struct OfHost final : private OwnImage, public api::HostPlayer {
+  OfHost(runtime::Engine& engine, runtime::PlayerOwner& owner) : OwnImage(engine), HostPlayer(image.handle(), owner) {}
 };
 
 } // namespace
 
-std::unique_ptr<AnyPlayer> makePlayer(runtime::RecordingMode mode, runtime::Engine& engine,
-                                      runtime::PlayerOwner& owner) {
-  if (mode == runtime::RecordingMode::Control) return std::make_unique<ControlPlayer>(engine, owner);
-  return std::make_unique<BytesPlayer>(engine, owner);
+std::unique_ptr<runtime::Player> makePlayer(runtime::RecordingMode mode, runtime::Engine& engine,
+                                            runtime::PlayerOwner& owner) {
+  if (mode == runtime::RecordingMode::Control) return std::make_unique<OfHost>(engine, owner);
+  return std::make_unique<OfBytes>(engine, owner);
 }
 
 } // namespace rung::replay

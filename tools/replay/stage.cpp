@@ -9,7 +9,7 @@ using runtime::Event;
 using runtime::EventWriter;
 using runtime::Played;
 
-bool playState(AnyPlayer& player, std::span<const uint8_t> events) {
+bool playState(runtime::Player& player, std::span<const uint8_t> events) {
   player.setEvents(events);
   return player.play() == Played::State && player.play() == Played::End;
 }

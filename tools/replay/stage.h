@@ -30,7 +30,7 @@ struct Moment {
 };
 
 // Whether the player has the state of these events now.
-bool playState(AnyPlayer& player, std::span<const uint8_t> events);
+bool playState(runtime::Player& player, std::span<const uint8_t> events);
 
 class Stage {
 public:
@@ -38,7 +38,7 @@ public:
                                              runtime::RecordingMode mode);
 
   const compiler::Compiled& compiled() const { return compiled_; }
-  AnyPlayer& player() { return *player_; }
+  runtime::Player& player() { return *player_; }
 
   FlowEngine& flowEngine();
   // The instance that runs rung by rung: after flow(), as that part left it.
@@ -70,10 +70,10 @@ private:
   compiler::EngineOptions options_;
   std::unique_ptr<runtime::Engine> engine_;
   FastOwner fastOwner_{*this};
-  std::unique_ptr<AnyPlayer> player_;
+  std::unique_ptr<runtime::Player> player_;
   std::unique_ptr<FlowEngine> flowEngine_;
   SlowOwner slowOwner_{*this};
-  std::unique_ptr<AnyPlayer> flowPlayer_;
+  std::unique_ptr<runtime::Player> flowPlayer_;
 };
 
 } // namespace rung::replay

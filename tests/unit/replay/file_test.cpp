@@ -296,6 +296,8 @@ TEST(HostRecording, IsPlayedWithItsControlFromAnyPlace) {
       if (past.part() > 1) ASSERT_EQ(past.goTo(past.part() - 1), "");
     }
   }
+  ASSERT_EQ(past.goTo(past.contents().parts), "");
+  EXPECT_EQ(differencesOf(past), "");
   const std::string words[] = {"LATE @ 190"};
   const Result<std::string> why = console.why(words, false);
   ASSERT_TRUE(why.ok()) << why.error();

@@ -3,7 +3,7 @@
 
 #include <random>
 
-#include "rtlib/record/player.h"
+#include "rtlib/record/bytes_player.h"
 #include "rtlib/record/recorder.h"
 #include "rtlib/run/instance.h"
 #include "tests/unit/rtlib/test_program.h"
@@ -187,7 +187,7 @@ TEST_F(Recording, PlayedAgainDoesTheSame) {
     after.clear();
     record(seed, 500, {.ringBytes = 1 << 16, .stateEveryUs = 100'000});
     Instance instance(program.program);
-    Player player(instance, owner);
+    BytesPlayer player(instance, owner);
     player.setEvents(events);
     size_t parts = 0, states = 0;
     for (;;) {

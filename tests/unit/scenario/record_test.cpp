@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "compiler/engines.h"
-#include "rtlib/record/player.h"
+#include "rtlib/record/bytes_player.h"
 #include "rtlib/record/recorder.h"
 #include "tools/scenario/runner.h"
 
@@ -66,7 +66,7 @@ TEST_P(Recordings, ArePlayedByAnotherEngine) {
   EXPECT_TRUE(run(scenario.value(), options).passed);
   runtime::Instance instance(*engine);
   NoForces owner;
-  runtime::Player player(instance, owner);
+  runtime::BytesPlayer player(instance, owner);
   player.setEvents(recorded->events);
   for (Played played = player.play(); played != Played::End; played = player.play()) {
     ASSERT_TRUE(played == Played::Part || played == Played::State)

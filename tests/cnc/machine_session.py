@@ -67,10 +67,14 @@ def check_recording(options, recording):
 
 
 def keep(options, configuration, folder):
-    """For tests/other-machine/session.py: the recording, and sources of each program in it."""
+    """For tests/other-machine/session.py: the recording, and its programs for two types of machines. They are known by hashes,
+    which are of names of files, too: as the component and `rungctl reload edited` were given them."""
     shutil.copytree(configuration / "recording", folder / "recording")
-    shutil.copytree(options.example, folder / "original", ignore=shutil.ignore_patterns("*.scn", "linuxcnc"))
-    shutil.copytree(configuration / "edited", folder / "edited")
+    for target in ("x86_64-linux-gnu", "aarch64-linux-gnu"):
+        for name, sources in (("original", configuration.parent), ("edited", "edited")):
+            made = folder / target / f"{name}.so"
+            made.parent.mkdir(exist_ok=True)
+            subprocess.run([options.rungc, "build", sources, "-q", "-o", made, "--target", target], cwd=configuration, check=True)
 
 
 def main():
@@ -97,9 +101,9 @@ def main():
         expect(result.read_text(encoding="utf-8") == "passed", result.read_text(encoding="utf-8"))
         for text in options.never:
             expect(text not in log, f"{text}: in the log")
-        check_recording(options, configuration / "recording")
         if options.keep:
             keep(options, configuration, options.keep)
+        check_recording(options, configuration / "recording")
     print("passed")
 
 

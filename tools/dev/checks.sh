@@ -217,6 +217,8 @@ check_runtime() { # the runtime alone: without the compiler's libraries, by g++;
   test_in build-runtime
   build_preset runtime-arm64 build-runtime-arm64
   test_in build-runtime-arm64
+  build_some "${commands[@]}" rung_hal rung_play_recording
+  python3 tests/other-machine/session.py build build-runtime-arm64
 }
 
 # By name only: the component with the HAL of LinuxCNC's master, in a HAL of the tests.

@@ -52,6 +52,10 @@ std::vector<std::string> wordsOf(const Request& request, size_t most) {
   return names;
 }
 
+Width widthOf(const Request& request) {
+  return static_cast<Width>(std::min<uint64_t>(numberOf(request, "width"), kWidths - 1));
+}
+
 std::string_view typeOf(std::string_view name) {
   if (name.ends_with(".js")) return "text/javascript";
   return name.ends_with(".css") ? "text/css" : "text/html";
@@ -87,12 +91,12 @@ const char* nameOf(RunState state) {
 
 // Heights are those of rows, from which the page knows where each of them is.
 Response Page::index(const Request& request) const {
-  const bool narrow = numberOf(request, "narrow") != 0;
+  const Width width = widthOf(request);
   json heights = json::array(), numbers = json::array();
   std::string kinds;
   for (uint32_t i = 0; i < program_.rows().size(); ++i) {
     const Row& row = program_.rows()[i];
-    heights.push_back(program_.heightOf(i, narrow));
+    heights.push_back(program_.heightOf(i, width));
     numbers.push_back(row.number);
     kinds += "fmscrd"[static_cast<size_t>(row.kind)];
   }
@@ -113,10 +117,10 @@ Response Page::rungs(const Request& request) const {
   const auto all = static_cast<uint64_t>(program_.rows().size());
   const uint64_t first = std::min(numberOf(request, "from"), all);
   const uint64_t end = std::min({numberOf(request, "to"), all, first + kMostRows});
-  const bool narrow = numberOf(request, "narrow") != 0;
+  const Width width = widthOf(request);
   json rows = json::array();
   for (auto row = static_cast<uint32_t>(first); row < end; ++row)
-    rows.push_back({row, program_.html(row, narrow), program_.nameOf(row)});
+    rows.push_back({row, program_.html(row, width), program_.nameOf(row)});
   return jsonOf(rows);
 }
 

@@ -19,8 +19,8 @@ constexpr int kLine = 19; // of a comment
 constexpr int kAfter = 18;
 constexpr int kHeading = 60;
 constexpr int kSection = 46;
-constexpr int kValueSpace = 88;  // pixels beside the operands of boxes
-constexpr int kNarrowRail = 352; // on a phone
+constexpr int kValueSpace = 88;                           // pixels beside the operands of boxes
+constexpr int kMostRail[kWidths] = {INT32_MAX, 600, 352}; // x of the right rail, by Width
 
 // What charts draw for a language of instructions: the value of a register that an earlier rung has set, the opposite
 // of the power, and the exclusive or.
@@ -34,6 +34,12 @@ bool isRegister(const Cell& cell) {
          (name == kResultRegister || name == kStackRegister);
 }
 bool isComplement(const Cell& cell) { return cell.kind == Cell::Kind::Contact && cell.mark == "NOT"; }
+
+std::array<int, kWidths> allWidths(int height) {
+  std::array<int, kWidths> heights{};
+  heights.fill(height);
+  return heights;
+}
 
 int linesOf(std::string_view text) { return 1 + static_cast<int>(std::ranges::count(text, '\n')); }
 
@@ -85,7 +91,6 @@ void ShownProgram::addRow(Row row) {
   elements_ += row.elements;
   if (row.kind == Row::Kind::Rung) rowsByRung_.emplace(row.number, static_cast<uint32_t>(rows_.size()));
   rows_.push_back(row);
-  narrow_.push_back(row.height);
 }
 
 ShownProgram::Path ShownProgram::pathOf(const view::Sheet& sheet) {
@@ -106,18 +111,20 @@ void ShownProgram::addFigure(uint32_t index) {
   const view::Figure& figure = drawing_.figures[index];
   paths_.push_back(pathOf(figure.sheet));
   const bool isChart = figure.chart != view::kNoChart;
-  const view::Picture picture = pictureOf(figure, false);
+  const view::Picture picture = pictureOf(figure, Width::Wide);
   const int comments = static_cast<int>(figure.comments.size()) * kLine;
   const int texts = kCaption + comments + kAfter;
+  std::array<int, kWidths> heights = allWidths(texts + picture.height);
+  for (size_t width = 1; width < kWidths && !isChart; ++width)
+    heights[width] = texts + pictureOf(figure, static_cast<Width>(width)).height;
   const uint32_t first = elements_;
   const auto row = static_cast<uint32_t>(rows_.size());
   addRow({.kind = Row::Kind::Rung,
-          .height = texts + picture.height,
+          .heights = heights,
           .number = figure.number,
           .index = index,
           .elements = static_cast<uint32_t>(isChart ? picture.steps.size() : figure.sheet.cells.size())});
   if (isChart) return;
-  narrow_.back() = texts + pictureOf(figure, true).height;
   for (uint32_t i = 0; i < figure.sheet.cells.size(); ++i) {
     const view::Place& place = figure.sheet.cells[i].place;
     if (place.line == 0 || isRegister(figure.sheet.cells[i])) continue;
@@ -128,7 +135,7 @@ void ShownProgram::addFigure(uint32_t index) {
 void ShownProgram::addChart(uint32_t index) {
   const view::Picture picture = view::layOut(drawing_.charts[index]);
   addRow({.kind = Row::Kind::Chart,
-          .height = picture.height + kAfter,
+          .heights = allWidths(picture.height + kAfter),
           .index = index,
           .elements = static_cast<uint32_t>(picture.steps.size())});
 }
@@ -141,15 +148,15 @@ ShownProgram::ShownProgram(view::Program program)
     else if (block.kind == Block::Kind::Chart)
       addChart(block.figure);
     else
-      addRow({.kind = static_cast<Row::Kind>(block.kind), .height = heightOfBlock(block)});
+      addRow({.kind = static_cast<Row::Kind>(block.kind), .heights = allWidths(heightOfBlock(block))});
   }
 }
 
 std::vector<view::ContentsEntry> ShownProgram::contents() const { return view::contentsOf(drawing_); }
 
-view::Picture ShownProgram::pictureOf(const view::Figure& figure, bool narrow) const {
+view::Picture ShownProgram::pictureOf(const view::Figure& figure, Width width) const {
   if (figure.chart != view::kNoChart) return view::layOut(drawing_.charts[figure.chart]);
-  return view::layOut(figure.sheet, narrow ? kNarrowRail : rail_, kValueSpace);
+  return view::layOut(figure.sheet, std::min(rail_, kMostRail[static_cast<size_t>(width)]), kValueSpace);
 }
 
 const view::Chart* ShownProgram::chartOf(const Row& row) const {
@@ -158,18 +165,17 @@ const view::Chart* ShownProgram::chartOf(const Row& row) const {
   return &drawing_.charts[drawing_.figures[row.index].chart];
 }
 
-std::string ShownProgram::rungHtml(uint32_t row, bool narrow) const {
+std::string ShownProgram::rungHtml(uint32_t row, Width width) const {
   const view::Figure& figure = drawing_.figures[rows_[row].index];
   std::string out = fmt::format("<div class=\"cap\"><b>{}</b><span>{}</span><i>{}</i></div>", figure.number,
                                 escaped(view::captionOf(figure)), escaped(view::textOf(drawing_, figure.place)));
   for (const std::string& comment : figure.comments) put(out, "<p>{}</p>", escaped(comment));
-  return out + drawingHtml(rows_[row], narrow);
+  return out + drawingHtml(rows_[row], width);
 }
 
-std::string ShownProgram::drawingHtml(const Row& row, bool narrow) const {
+std::string ShownProgram::drawingHtml(const Row& row, Width width) const {
   const view::Chart* chart = chartOf(row);
-  const view::Picture picture =
-      chart != nullptr ? view::layOut(*chart) : pictureOf(drawing_.figures[row.index], narrow);
+  const view::Picture picture = chart != nullptr ? view::layOut(*chart) : pictureOf(drawing_.figures[row.index], width);
   std::string out = fmt::format("<svg aria-hidden=\"true\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\">",
                                 picture.width, picture.height);
   if (chart != nullptr)
@@ -223,10 +229,10 @@ const std::string& ShownProgram::titleOf(uint32_t row) const {
   return rung ? drawing_.figures[rows_[row].index].title : drawing_.blocks[row].text;
 }
 
-std::string ShownProgram::html(uint32_t row, bool narrow) const {
+std::string ShownProgram::html(uint32_t row, Width width) const {
   const Row& one = rows_[row];
-  if (one.kind == Row::Kind::Rung) return rungHtml(row, narrow);
-  if (one.kind == Row::Kind::Chart) return drawingHtml(one, narrow);
+  if (one.kind == Row::Kind::Rung) return rungHtml(row, width);
+  if (one.kind == Row::Kind::Chart) return drawingHtml(one, width);
   const Block& block = drawing_.blocks[row];
   if (one.kind == Row::Kind::Comment) return commentHtml(block.text);
   return headingHtml(one.kind == Row::Kind::Section ? 3 : 2, block);

@@ -17,6 +17,7 @@ using view::escaped;
 constexpr int kCaption = 32;
 constexpr int kLine = 19; // of a comment
 constexpr int kAfter = 18;
+constexpr int kPhone = 360; // pixels of a line of text on a telephone
 constexpr int kHeading = 60;
 constexpr int kSection = 46;
 constexpr int kValueSpace = 88;                           // pixels beside the operands of boxes
@@ -41,15 +42,26 @@ std::array<int, kWidths> allWidths(int height) {
   return heights;
 }
 
-int linesOf(std::string_view text) { return 1 + static_cast<int>(std::ranges::count(text, '\n')); }
+// Of a comment, which is wrapped on a telephone alone.
+int linesOf(std::string_view text, Width width) {
+  int lines = 0;
+  for (size_t at = 0; at <= text.size();) {
+    const size_t end = std::min(text.find('\n', at), text.size());
+    const std::string_view line = text.substr(at, end - at);
+    const bool wraps = width == Width::Phone;
+    lines += wraps ? std::max(1, static_cast<int>(view::wrap(line, view::Style::Comment, kPhone).size())) : 1;
+    at = end + 1;
+  }
+  return lines;
+}
 
-int heightOfBlock(const Block& block) {
+int heightOfBlock(const Block& block, Width width) {
   switch (block.kind) {
   case Block::Kind::File: return kHeading;
   case Block::Kind::Module:
     return kHeading + (block.comment.empty() ? 0 : kLine) + (block.callers.rungs.empty() ? 0 : kLine);
   case Block::Kind::Section: return kSection + (block.comment.empty() ? 0 : kLine);
-  case Block::Kind::Comment: return linesOf(block.text) * kLine + 10;
+  case Block::Kind::Comment: return linesOf(block.text, width) * kLine + 10;
   case Block::Kind::Rung:
   case Block::Kind::Chart: break;
   }
@@ -148,7 +160,9 @@ ShownProgram::ShownProgram(view::Program program)
     else if (block.kind == Block::Kind::Chart)
       addChart(block.figure);
     else
-      addRow({.kind = static_cast<Row::Kind>(block.kind), .heights = allWidths(heightOfBlock(block))});
+      addRow({.kind = static_cast<Row::Kind>(block.kind),
+              .heights = {heightOfBlock(block, Width::Wide), heightOfBlock(block, Width::Tablet),
+                          heightOfBlock(block, Width::Phone)}});
   }
 }
 

@@ -186,6 +186,10 @@ class Page(unittest.TestCase):
         page.until("return document.getElementById('state').textContent === 'Running'", "running")
         page.keys("3")
         page.until("return !document.getElementById('io').hidden", "the view")
+        page.keys("p")
+        page.until("return document.querySelectorAll('#legend .heat').length === 5 && !document.getElementById('ladder').hidden", "the profile")
+        page.keys("p")
+        page.until("return document.getElementById('legend').hidden", "without it")
 
     def test_is_read_aloud(self):
         page = self.browser
@@ -272,6 +276,9 @@ class Page(unittest.TestCase):
             page.until("return getComputedStyle(document.getElementById('side')).display !== 'none'", "the contents")
             page.js("[...document.querySelectorAll('#tree li')][3].click()")
             page.until("return getComputedStyle(document.getElementById('side')).display === 'none'", "closed again")
+            page.phone(820, 1180)
+            page.until("return document.querySelector('article svg') && innerWidth === 820", "a tablet")
+            page.until("const w = document.querySelector('article svg').getBoundingClientRect().width; return w > 600 && w < 820", "drawings that fit it")
             self.assertEqual(page.errors(), [])
         finally:
             page.close()

@@ -104,8 +104,9 @@ private:
                              ComparedRung::State::Moved, ComparedRung::State::Same}) {
       const auto count = std::ranges::count(comparison_.rungs, state, &ComparedRung::state);
       if (count == 0) continue;
-      put(text, "{}<b class=\"is-{}\">{}</b> {}", text.empty() ? "" : ", ", kStates[static_cast<size_t>(state)], count,
-          kStates[static_cast<size_t>(state)]);
+      const std::string_view name = kStates[static_cast<size_t>(state)];
+      put(text, "{}<b class=\"is-{}\">{}</b> {}", text.empty() ? "" : ", ", name, count,
+          state == ComparedRung::State::Same ? "unchanged" : name);
     }
     return "Rungs: " + text;
   }

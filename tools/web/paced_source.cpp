@@ -244,6 +244,7 @@ void PacedSource::checkTrigger() {
 
 Result<std::string> PacedSource::acknowledge() {
   return hand<std::string>([this]() -> Result<std::string> {
+    if (shownScan() < lastScan()) return failure("this is the past: go to the newest scan first");
     if (messages_.empty()) return failure("no message is shown");
     for (const nc::ShownMessage& one : messages_)
       log("acknowledged", fmt::format("{} {}", numberOf(one), one.text), lastScan(), nowUs());

@@ -52,6 +52,10 @@ std::vector<std::string> wordsOf(const Request& request, size_t most) {
   return names;
 }
 
+Width widthOf(const Request& request) {
+  return static_cast<Width>(std::min<uint64_t>(numberOf(request, "width"), kWidths - 1));
+}
+
 std::string_view typeOf(std::string_view name) {
   if (name.ends_with(".js")) return "text/javascript";
   return name.ends_with(".css") ? "text/css" : "text/html";
@@ -89,12 +93,12 @@ const char* nameOf(RunState state) {
 Response Page::index(const Request& request) const {
   const Drawn drawn = source_.drawn();
   const ShownProgram& program = *drawn.program;
-  const bool narrow = numberOf(request, "narrow") != 0;
+  const Width width = widthOf(request);
   json heights = json::array(), numbers = json::array();
   std::string kinds;
   for (uint32_t i = 0; i < program.rows().size(); ++i) {
     const Row& row = program.rows()[i];
-    heights.push_back(program.heightOf(i, narrow));
+    heights.push_back(program.heightOf(i, width));
     numbers.push_back(row.number);
     kinds += "fmscrd"[static_cast<size_t>(row.kind)];
   }
@@ -116,10 +120,10 @@ Response Page::rungs(const Request& request, const ShownProgram& program) {
   const auto all = static_cast<uint64_t>(program.rows().size());
   const uint64_t first = std::min(numberOf(request, "from"), all);
   const uint64_t end = std::min({numberOf(request, "to"), all, first + kMostRows});
-  const bool narrow = numberOf(request, "narrow") != 0;
+  const Width width = widthOf(request);
   json rows = json::array();
   for (auto row = static_cast<uint32_t>(first); row < end; ++row)
-    rows.push_back({row, program.html(row, narrow), program.nameOf(row)});
+    rows.push_back({row, program.html(row, width), program.nameOf(row)});
   return jsonOf(rows);
 }
 

@@ -17,10 +17,11 @@ using view::escaped;
 constexpr int kCaption = 32;
 constexpr int kLine = 19; // of a comment
 constexpr int kAfter = 18;
+constexpr int kPhone = 360; // pixels of a line of text on a telephone
 constexpr int kHeading = 60;
 constexpr int kSection = 46;
-constexpr int kValueSpace = 88;  // pixels beside the operands of boxes
-constexpr int kNarrowRail = 352; // on a phone
+constexpr int kValueSpace = 88;                           // pixels beside the operands of boxes
+constexpr int kMostRail[kWidths] = {INT32_MAX, 600, 352}; // x of the right rail, by Width
 
 // What charts draw for a language of instructions: the value of a register that an earlier rung has set, the opposite
 // of the power, and the exclusive or.
@@ -35,15 +36,32 @@ bool isRegister(const Cell& cell) {
 }
 bool isComplement(const Cell& cell) { return cell.kind == Cell::Kind::Contact && cell.mark == "NOT"; }
 
-int linesOf(std::string_view text) { return 1 + static_cast<int>(std::ranges::count(text, '\n')); }
+std::array<int, kWidths> allWidths(int height) {
+  std::array<int, kWidths> heights{};
+  heights.fill(height);
+  return heights;
+}
 
-int heightOfBlock(const Block& block) {
+// Of a comment, which is wrapped on a telephone alone.
+int linesOf(std::string_view text, Width width) {
+  int lines = 0;
+  for (size_t at = 0; at <= text.size();) {
+    const size_t end = std::min(text.find('\n', at), text.size());
+    const std::string_view line = text.substr(at, end - at);
+    const bool wraps = width == Width::Phone;
+    lines += wraps ? std::max(1, static_cast<int>(view::wrap(line, view::Style::Comment, kPhone).size())) : 1;
+    at = end + 1;
+  }
+  return lines;
+}
+
+int heightOfBlock(const Block& block, Width width) {
   switch (block.kind) {
   case Block::Kind::File: return kHeading;
   case Block::Kind::Module:
     return kHeading + (block.comment.empty() ? 0 : kLine) + (block.callers.rungs.empty() ? 0 : kLine);
   case Block::Kind::Section: return kSection + (block.comment.empty() ? 0 : kLine);
-  case Block::Kind::Comment: return linesOf(block.text) * kLine + 10;
+  case Block::Kind::Comment: return linesOf(block.text, width) * kLine + 10;
   case Block::Kind::Rung:
   case Block::Kind::Chart: break;
   }
@@ -85,7 +103,6 @@ void ShownProgram::addRow(Row row) {
   elements_ += row.elements;
   if (row.kind == Row::Kind::Rung) rowsByRung_.emplace(row.number, static_cast<uint32_t>(rows_.size()));
   rows_.push_back(row);
-  narrow_.push_back(row.height);
 }
 
 ShownProgram::Path ShownProgram::pathOf(const view::Sheet& sheet) {
@@ -106,18 +123,20 @@ void ShownProgram::addFigure(uint32_t index) {
   const view::Figure& figure = drawing_.figures[index];
   paths_.push_back(pathOf(figure.sheet));
   const bool isChart = figure.chart != view::kNoChart;
-  const view::Picture picture = pictureOf(figure, false);
+  const view::Picture picture = pictureOf(figure, Width::Wide);
   const int comments = static_cast<int>(figure.comments.size()) * kLine;
   const int texts = kCaption + comments + kAfter;
+  std::array<int, kWidths> heights = allWidths(texts + picture.height);
+  for (size_t width = 1; width < kWidths && !isChart; ++width)
+    heights[width] = texts + pictureOf(figure, static_cast<Width>(width)).height;
   const uint32_t first = elements_;
   const auto row = static_cast<uint32_t>(rows_.size());
   addRow({.kind = Row::Kind::Rung,
-          .height = texts + picture.height,
+          .heights = heights,
           .number = figure.number,
           .index = index,
           .elements = static_cast<uint32_t>(isChart ? picture.steps.size() : figure.sheet.cells.size())});
   if (isChart) return;
-  narrow_.back() = texts + pictureOf(figure, true).height;
   for (uint32_t i = 0; i < figure.sheet.cells.size(); ++i) {
     const view::Place& place = figure.sheet.cells[i].place;
     if (place.line == 0 || isRegister(figure.sheet.cells[i])) continue;
@@ -128,7 +147,7 @@ void ShownProgram::addFigure(uint32_t index) {
 void ShownProgram::addChart(uint32_t index) {
   const view::Picture picture = view::layOut(drawing_.charts[index]);
   addRow({.kind = Row::Kind::Chart,
-          .height = picture.height + kAfter,
+          .heights = allWidths(picture.height + kAfter),
           .index = index,
           .elements = static_cast<uint32_t>(picture.steps.size())});
 }
@@ -141,15 +160,17 @@ ShownProgram::ShownProgram(view::Program program)
     else if (block.kind == Block::Kind::Chart)
       addChart(block.figure);
     else
-      addRow({.kind = static_cast<Row::Kind>(block.kind), .height = heightOfBlock(block)});
+      addRow({.kind = static_cast<Row::Kind>(block.kind),
+              .heights = {heightOfBlock(block, Width::Wide), heightOfBlock(block, Width::Tablet),
+                          heightOfBlock(block, Width::Phone)}});
   }
 }
 
 std::vector<view::ContentsEntry> ShownProgram::contents() const { return view::contentsOf(drawing_); }
 
-view::Picture ShownProgram::pictureOf(const view::Figure& figure, bool narrow) const {
+view::Picture ShownProgram::pictureOf(const view::Figure& figure, Width width) const {
   if (figure.chart != view::kNoChart) return view::layOut(drawing_.charts[figure.chart]);
-  return view::layOut(figure.sheet, narrow ? kNarrowRail : rail_, kValueSpace);
+  return view::layOut(figure.sheet, std::min(rail_, kMostRail[static_cast<size_t>(width)]), kValueSpace);
 }
 
 const view::Chart* ShownProgram::chartOf(const Row& row) const {
@@ -158,18 +179,17 @@ const view::Chart* ShownProgram::chartOf(const Row& row) const {
   return &drawing_.charts[drawing_.figures[row.index].chart];
 }
 
-std::string ShownProgram::rungHtml(uint32_t row, bool narrow) const {
+std::string ShownProgram::rungHtml(uint32_t row, Width width) const {
   const view::Figure& figure = drawing_.figures[rows_[row].index];
   std::string out = fmt::format("<div class=\"cap\"><b>{}</b><span>{}</span><i>{}</i></div>", figure.number,
                                 escaped(view::captionOf(figure)), escaped(view::textOf(drawing_, figure.place)));
   for (const std::string& comment : figure.comments) put(out, "<p>{}</p>", escaped(comment));
-  return out + drawingHtml(rows_[row], narrow);
+  return out + drawingHtml(rows_[row], width);
 }
 
-std::string ShownProgram::drawingHtml(const Row& row, bool narrow) const {
+std::string ShownProgram::drawingHtml(const Row& row, Width width) const {
   const view::Chart* chart = chartOf(row);
-  const view::Picture picture =
-      chart != nullptr ? view::layOut(*chart) : pictureOf(drawing_.figures[row.index], narrow);
+  const view::Picture picture = chart != nullptr ? view::layOut(*chart) : pictureOf(drawing_.figures[row.index], width);
   std::string out = fmt::format("<svg aria-hidden=\"true\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\">",
                                 picture.width, picture.height);
   if (chart != nullptr)
@@ -223,10 +243,10 @@ const std::string& ShownProgram::titleOf(uint32_t row) const {
   return rung ? drawing_.figures[rows_[row].index].title : drawing_.blocks[row].text;
 }
 
-std::string ShownProgram::html(uint32_t row, bool narrow) const {
+std::string ShownProgram::html(uint32_t row, Width width) const {
   const Row& one = rows_[row];
-  if (one.kind == Row::Kind::Rung) return rungHtml(row, narrow);
-  if (one.kind == Row::Kind::Chart) return drawingHtml(one, narrow);
+  if (one.kind == Row::Kind::Rung) return rungHtml(row, width);
+  if (one.kind == Row::Kind::Chart) return drawingHtml(one, width);
   const Block& block = drawing_.blocks[row];
   if (one.kind == Row::Kind::Comment) return commentHtml(block.text);
   return headingHtml(one.kind == Row::Kind::Section ? 3 : 2, block);

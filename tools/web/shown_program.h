@@ -1,6 +1,7 @@
 // A program as the page shows it: rows from top to bottom, of known heights, so that only those are drawn that are
 // looked at; and the elements whose power the page shows. Immutable once made: any thread.
 #pragma once
+#include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -27,13 +28,17 @@ enum ElementState : uint8_t {
   kWired = 64,    // the program says nothing of it: a coil or a box has the power of its wire
 };
 
+// Drawings are cut to the width of a page; then they are higher.
+enum class Width : uint8_t { Wide, Tablet, Phone };
+inline constexpr size_t kWidths = 3;
+
 // What the page shows as a row.
 struct Row {
   enum class Kind : uint8_t { File, Module, Section, Comment, Rung, Chart };
   Kind kind = Kind::Comment;
-  int height = 0;      // pixels, on a wide page
-  uint32_t number = 0; // of a rung, as drawn
-  uint32_t index = 0;  // of a rung: in the figures of the drawing; of a chart: in its charts
+  std::array<int, kWidths> heights{}; // pixels, by Width
+  uint32_t number = 0;                // of a rung, as drawn
+  uint32_t index = 0;                 // of a rung: in the figures of the drawing; of a chart: in its charts
   uint32_t firstElement = 0;
   uint32_t elements = 0;
 };
@@ -49,8 +54,8 @@ public:
   const view::Program& drawing() const { return drawing_; }
   const std::vector<view::NameTable>& tables() const { return drawing_.tables; }
   uint32_t elementCount() const { return elements_; }
-  // Pixels of the row. `narrow`: drawings are cut to the width of a phone, so that they are higher.
-  int heightOf(uint32_t row, bool narrow) const { return narrow ? narrow_[row] : rows_[row].height; }
+  // Pixels of the row.
+  int heightOf(uint32_t row, Width width) const { return rows_[row].heights[static_cast<size_t>(width)]; }
 
   // The elements of a row at a position of its file: an instruction may be drawn as several. Column 0: the only one
   // that begins on the line.
@@ -69,7 +74,7 @@ public:
   const std::string& titleOf(uint32_t row) const;
 
   // The row as HTML.
-  std::string html(uint32_t row, bool narrow) const;
+  std::string html(uint32_t row, Width width) const;
   // The power in a rung, a character for each of its elements: '-' not evaluated in this scan, otherwise '0' plus 1 if
   // it is on, 2 if there is power after it. "" for a row without elements, or if the rung did not run. `states`: of
   // all elements.
@@ -114,15 +119,14 @@ private:
   void addChart(uint32_t index);
   void addRow(Row row);
   const view::Chart* chartOf(const Row& row) const; // null: the row has no chart
-  view::Picture pictureOf(const view::Figure& figure, bool narrow) const;
-  std::string rungHtml(uint32_t row, bool narrow) const;
-  std::string drawingHtml(const Row& row, bool narrow) const;
+  view::Picture pictureOf(const view::Figure& figure, Width width) const;
+  std::string rungHtml(uint32_t row, Width width) const;
+  std::string drawingHtml(const Row& row, Width width) const;
   static Path pathOf(const view::Sheet& sheet);
 
   view::Program drawing_;
   std::vector<Path> paths_; // by figure
   std::vector<Row> rows_;
-  std::vector<int> narrow_; // heights on a narrow page, by row
   std::map<uint32_t, uint32_t> rowsByRung_;
   std::multimap<Key, uint32_t> byPlace_;
   uint32_t elements_ = 0;

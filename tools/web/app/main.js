@@ -1,6 +1,6 @@
 // The page: puts its parts together, and draws every picture in all of them at once.
 import {get, post, Pictures} from './link.js';
-import {isNarrow, Pane} from './pane.js';
+import {Pane, widthOfPage} from './pane.js';
 import {Tree} from './tree.js';
 import {Find, Names} from './find.js';
 import {Trace} from './trace.js';
@@ -76,14 +76,14 @@ function keysDialog() {
   const list = make('dl', 'keys');
   for (const [key, what] of [['/', 'search'], ['Space', 'run or pause'], [', and .', 'one scan back or on'],
     ['↑ ↓', 'rung before, rung after'], ['← →', 'elements of the rung'], ['Home End', 'first, last rung'],
-    ['w', 'watch the selected name'], ['1 2 3 4', 'views'], ['Esc', 'close']])
+    ['w', 'watch the selected name'], ['p', 'profile of the rungs'], ['1 2 3 4', 'views'], ['Esc', 'close']])
     list.append(make('dt', '', key), make('dd', '', what));
   dialog('Keys', [list], [['Close']]);
 }
 
 async function start() {
-  const narrow = isNarrow();
-  const index = await get('index?narrow=' + Number(narrow));
+  const width = widthOfPage();
+  const index = await get('index?width=' + width);
   document.title = index.title + ' – Rung';
   by('title').textContent = index.title;
   by('control').textContent = index.control;
@@ -99,13 +99,14 @@ async function start() {
     }
     if (which === 'io') terminals.fill();
     if (which === 'ladder') pane.soon();
+    profile.place(which === 'ladder');
     follow();
   };
   const goRung = number => { closeSide(); showTab('ladder'); pane.goRung(number); };
   const goRow = row => { closeSide(); showTab('ladder'); pane.go(row, index.kinds[row] === 'r'); };
   const choose = element => { detail.show(element).then(follow); };
 
-  const pane = new Pane(by('ladder'), by('space'), index, narrow, choose);
+  const pane = new Pane(by('ladder'), by('space'), index, width, choose);
   const tree = new Tree(by('tree'), index, goRow);
   const watch = new Watch(by('watch'), names, writer, goRung, 'rung-watch-' + index.title);
   const detail = new Detail(by('detail'), names, writer, {go: goRung, goRow, seek, causes: map => pane.setCauses(map),
@@ -126,7 +127,7 @@ async function start() {
   watch.fill();
   const trace = new Trace(by('watch'), watch, seek, tell);
   history.onnews = news => trace.news(news);
-  new Profile(by('legend'), by('profile'), pane, goRung, tell);
+  const profile = new Profile(by('legend'), by('profile'), pane, goRung, tell);
 
   // What the next pictures must have.
   function follow() {
@@ -159,7 +160,6 @@ async function start() {
     slider.setAttribute('aria-valuetext', `scan ${next.scan}, ${timeText(next.us)}`);
     by('forced').hidden = !next.forces.length;
     by('forced').textContent = `${next.forces.length} forced`;
-    by('profile').hidden = tab !== 'ladder';
     by('forced').title = next.forces.map(cell => `${cell.name} = ${cell.value}`).join('\n');
     const newest = next.fault || next.messages.map(([number, text]) => `${number} ${text}`).join('   ·   ');
     if (by('messages').textContent !== (newest || 'No messages')) by('messages').textContent = newest || 'No messages';
@@ -281,6 +281,7 @@ async function start() {
       ' ': () => event.target.matches('button') ? false : go(),
       ',': () => step(-1), '.': () => step(1), '?': keysDialog,
       w: () => { if (!detail.name) return false; watch.add(detail.name); tell(`${detail.name} is watched`); },
+      p: () => { showTab('ladder'); by('profile').click(); },
       1: () => showTab('ladder'), 2: () => showTab('watch'), 3: () => showTab('io'), 4: () => showTab('log'),
     };
     if (inside && tab === 'ladder' && !event.target.matches('input'))

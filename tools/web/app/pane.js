@@ -6,15 +6,15 @@ const kCached = 600;  // rows whose HTML is kept
 const kChunk = 40;
 const kKinds = {f: 'file', m: 'module', s: 'section', c: 'comment', r: 'rung', d: 'chart'};
 
-// Drawings are cut for narrow windows, as app.css has it.
-export const isNarrow = () => innerWidth <= 760;
+// Drawings are cut for tablets (1) and telephones (2), as app.css has it.
+export const widthOfPage = () => innerWidth <= 760 ? 2 : innerWidth <= 1000 ? 1 : 0;
 
 export class Pane {
-  constructor(pane, space, index, narrow, chosen) {
+  constructor(pane, space, index, width, chosen) {
     this.pane = pane;
     this.space = space;
     this.index = index;
-    this.narrow = narrow;
+    this.width = width;
     this.chosen = chosen;  // called with the element that was clicked
     this.measure();
     this.rungRow = new Map();
@@ -44,11 +44,11 @@ export class Pane {
 
   // A pane that becomes narrow, or wide again, has other drawings.
   async resized() {
-    const narrow = isNarrow();
-    if (!this.pane.clientWidth || narrow === this.narrow) return this.soon();
-    this.narrow = narrow;
+    const width = widthOfPage();
+    if (!this.pane.clientWidth || width === this.width) return this.soon();
+    this.width = width;
     const at = this.focusRow >= 0 ? this.focusRow : this.visible()[0];
-    this.index.heights = (await get('index?narrow=' + Number(narrow))).heights;
+    this.index.heights = (await get('index?width=' + width)).heights;
     this.cache.clear();
     for (const element of this.shown.values()) element.remove();
     this.shown.clear();
@@ -91,13 +91,13 @@ export class Pane {
   }
 
   async ask(row) {
-    const chunk = Math.floor(row / kChunk), narrow = this.narrow;
+    const chunk = Math.floor(row / kChunk), width = this.width;
     if (this.asked.has(chunk)) return;
     this.asked.add(chunk);
     try {
-      const range = `from=${chunk * kChunk}&to=${(chunk + 1) * kChunk}&narrow=${Number(narrow)}`;
+      const range = `from=${chunk * kChunk}&to=${(chunk + 1) * kChunk}&width=${width}`;
       for (const [number, html, name] of await get('rungs?' + range))
-        if (narrow === this.narrow) this.cache.set(number, [html, name]);
+        if (width === this.width) this.cache.set(number, [html, name]);
       while (this.cache.size > kCached) {
         const oldest = [...this.cache.keys()].find(one => !this.shown.has(one));
         if (oldest === undefined) break;

@@ -13,6 +13,12 @@ export class Profile {
     toggle.onclick = () => this.show(!this.on);
   }
 
+  // It belongs to the view of the rungs.
+  place(visible) {
+    this.toggle.hidden = !visible;
+    this.legend.hidden = !visible || !this.on;
+  }
+
   async show(on) {
     this.on = on;
     this.toggle.setAttribute('aria-pressed', String(on));

@@ -110,8 +110,9 @@ export class Trace {
   line(name, texts, first, hit) {
     const row = make('div', 'line'), svg = document.createElementNS('http://www.w3.org/2000/svg', 'svg');
     const values = texts.map(text => Number.parseFloat(text) || 0);
-    const least = Math.min(...values), most = Math.max(...values), span = most - least || 1;
-    const y = value => kHeight - 4 - (value - least) / span * (kHeight - 8);
+    const bits = values.every(value => value === 0 || value === 1);
+    const least = Math.min(...values), most = Math.max(...values), span = bits ? 1 : most - least || 1;
+    const y = value => kHeight - 4 - (value - (bits ? 0 : least)) / span * (kHeight - 8);
     let path = `M0 ${y(values[0])}`;
     values.forEach((value, i) => { if (i && value !== values[i - 1]) path += `H${i}V${y(value)}`; });
     svg.setAttribute('viewBox', `0 0 ${values.length} ${kHeight}`);

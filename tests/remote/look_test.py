@@ -720,8 +720,6 @@ class VerifyExamples(unittest.TestCase):
     def test_technol(self):
         self.verify("technol-machining-centre",
                     ("centre.inc", "EQUI T_CONTACTOR,25", "EQUI T_CONTACTOR,26", r"\nno rung has another text; values of constants that rungs use, "),
-                    ("centre.PlcConstants", "<Constant ID=\"CMD_PARTS\"", "<Constant ID=\"CMD_OTHER\" Value=\"PLCCOMMAND\"/>\n<Constant ID=\"CMD_PARTS\"",
-                     r"\nno rung has another text; values of constants that rungs use, "),
                     ("fluids.plc", "LDR  PROGRAM", "LDR  -PROGRAM", r"\nchanged rung \d+.*/copy/fluids\.plc:\d+\n"))
 
     def test_gsk(self):

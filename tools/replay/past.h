@@ -99,6 +99,7 @@ private:
   bool nextSegment();
   bool otherProgram();
   bool followsFromBefore(uint64_t part) const;
+  std::optional<Moment> firstOf(uint64_t part) const;
   void keep();
   std::optional<Moment> present();
   void noteDifference();

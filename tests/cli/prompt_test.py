@@ -265,7 +265,7 @@ class Piped(Folder):
                      "  PUMP (5101.00) = 1, since scan 1, 0.010 s\n    forced by a person\n      force PUMP 1\n"):
             self.assertIn(text, output)
         # A value that has been set, and that no scan has seen.
-        self.assertIn("PUMP = 1, set after scan 0, 0.000 s; no scan has run since\n", self.prompt("set PUMP 1\nwhy PUMP\n"))
+        self.assertIn("PUMP = 1, set after scan 1, 0.010 s; no scan has run since\n", self.prompt("scan\nset PUMP 1\nwhy PUMP\n"))
 
     def test_wrong_forces(self):
         for line, message in (("force NOTHING 1", "'NOTHING' is not a name"), ("force PUMP", "expected a value"),

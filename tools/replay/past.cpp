@@ -328,6 +328,19 @@ std::optional<Moment> Past::beginning() {
   return last;
 }
 
+// The state with which the program of now begins with this part, as the recording has it.
+std::optional<Moment> Past::firstOf(uint64_t part) const {
+  const auto ofPart = [&](const StatePoint& p) { return p.segment == segment_ && p.part + 1 == part; };
+  const auto point = std::find_if(contents_.states.rbegin(), contents_.states.rend(), ofPart);
+  if (point == contents_.states.rend()) return std::nullopt;
+  const std::span<const uint8_t> state = events().subspan(point->begins, point->ends - point->begins);
+  return Moment{.program = stageNumber_,
+                .segment = segment_,
+                .position = point->ends,
+                .part = part - 1,
+                .events = {state.begin(), state.end()}};
+}
+
 // Whether nothing but the part lies between the states before and after it.
 bool Past::followsFromBefore(uint64_t part) const {
   return std::ranges::none_of(contents_.landmarks, [&](const Landmark& landmark) {

@@ -105,6 +105,7 @@ private:
   bool nextSegment();
   bool otherProgram();
   bool followsFromBefore(uint64_t part) const;
+  std::optional<Moment> firstOf(uint64_t part) const;
   std::optional<Moment> present();
   std::optional<Moment> beginning();
   void keep(Moment moment);

@@ -59,7 +59,8 @@ struct RecordedHost {
     instance.powerOn(rung::Power::Cold);
     for (int scan = 0; scan < scans; ++scan) {
       go = scan / 100 % 2;
-      if (scan == kWritten) instance.write<int64_t>(instance.find("COUNT", RUNG_WRITE), 42); // as a client does
+      if (scan == kWritten)
+        instance.write<int64_t>(instance.find("COUNT", rung::Access::Write), 42); // as a client does
       EXPECT_EQ(instance.scan(), RUNG_OK);
       lamps.push_back(static_cast<uint8_t>(instance.read<int64_t>(instance.find("LAMP"))));
       lates.push_back(static_cast<uint8_t>(instance.read<int64_t>(instance.find("LATE"))));

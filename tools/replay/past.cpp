@@ -43,6 +43,7 @@ Result<void> Past::useStage(uint32_t number) {
     stages_[number] = std::move(made).value();
     stages_[number]->player().compareOutputs(comparesOutputs_);
   }
+  if (stageNumber_ != number) scanParts_ = 0;
   stageNumber_ = number;
   return {};
 }
@@ -58,6 +59,7 @@ bool Past::begin(const StatePoint& point) {
   segment_ = point.segment;
   part_ = point.part;
   resumed_ = false;
+  scanBegan_.reset();
   const uint32_t first = stageNumber_;
   const auto count = static_cast<uint32_t>(recording_.programs.size());
   for (uint32_t i = 0; i < count; ++i) {
@@ -80,6 +82,7 @@ bool Past::resume(const Moment& moment) {
   segment_ = moment.segment;
   part_ = moment.part;
   if (!playState(stage().player(), moment.events)) return false;
+  scanBegan_.reset();
   againKind_ = moment.kind;
   againNumber_ = moment.number;
   againEvent_.resize(32);
@@ -129,6 +132,7 @@ bool Past::playAgain() {
   if (stage().player().play() != Played::Part) return false;
   ++part_;
   resumed_ = false;
+  noteScan();
   takeSent();
   if (--again_ == 0) play(base_);
   return true;
@@ -170,6 +174,7 @@ bool Past::next() {
     case Played::Part:
       ++part_;
       resumed_ = false;
+      noteScan();
       noteDifference();
       takeSent();
       return true;
@@ -270,47 +275,63 @@ std::string Past::goToTime(int64_t us) {
   return problem_;
 }
 
+uint64_t Past::partsPerScan() {
+  constexpr uint64_t kMost = 64;
+  if (scanParts_ == 0) { // plays on until it is known
+    const uint64_t here = part_, count = std::min(here - firstPart(), kMost);
+    if (goTo(here - count).empty()) (void)goTo(here);
+    if (scanParts_ == 0 && count == kMost) scanParts_ = 1;
+  }
+  return std::clamp<uint64_t>(scanParts_, 1, kMost);
+}
+
+// After a part.
+void Past::noteScan() {
+  if (!instance().atListStart()) return;
+  if (scanBegan_) scanParts_ = part_ - *scanBegan_;
+  scanBegan_ = part_;
+}
+
 // The events from a moment on that lead to the present position.
-std::vector<uint8_t> Past::eventsFrom(const Moment& moment) const {
-  std::vector<uint8_t> all;
-  size_t position = moment.position;
-  for (uint32_t i = moment.segment; i <= segment_; ++i, position = 0) {
-    const std::span<const uint8_t> events = std::span(recording_.segments[i].events).subspan(position);
-    if (!recording_.segments[i].continues) all.clear();
-    all.insert(all.end(), events.begin(), events.end());
+std::vector<uint8_t> Past::eventsFrom(const Moment& from) const {
+  const std::vector<Segment>& segments = recording_.segments;
+  uint32_t i = from.segment;
+  size_t begin = from.position;
+  while (begin == segments[i].events.size() && i < segment_ && segments[i + 1].continues) ++i, begin = 0;
+  const uint64_t repeats = from.repeats != 0 ? from.repeats : takeRepeats(segments[i].events, begin);
+  std::vector<uint8_t> all(32);
+  runtime::EventWriter writer(all);
+  if (repeats != 0) writer.put(Event::Part, static_cast<uint8_t>(from.kind), from.number);
+  if (repeats > 1) writer.put(Event::Repeat, repeats - 1);
+  all.resize(writer.size());
+  for (; i <= segment_; ++i, begin = 0) {
+    if (i != from.segment && !segments[i].continues) all.clear(); // it begins with a state
+    const std::span<const uint8_t> events = segments[i].events;
+    const size_t end = i == segment_ ? position() : events.size();
+    all.insert(all.end(), events.begin() + static_cast<ptrdiff_t>(begin), events.begin() + static_cast<ptrdiff_t>(end));
   }
   return all;
 }
 
-const Flow* Past::flow(const FlowEngine::AfterRun& afterRun) {
+bool Past::isContinuous(uint32_t from) const {
+  for (uint32_t i = from + 1; i <= segment_; ++i)
+    if (!recording_.segments[i].continues) return false;
+  return true;
+}
+
+const Flow* Past::flow(const FlowEngine::AfterRun& afterRun, uint64_t parts) {
   const uint64_t here = part_;
   blockBefore_.clear();
-  if (here <= firstPart() || !goTo(here - 1).empty()) {
-    (void)goTo(here);
-    return nullptr;
-  }
-  std::optional<Moment> from = present();
-  const Flow* flow = nullptr;
-  if (from) {
-    const std::span<const uint8_t> block = instance().block();
-    blockBefore_.assign(block.begin(), block.end());
-    const uint32_t before = stageNumber_;
-    keep();
-    (void)goTo(here);
-    if (stageNumber_ != before) { // the part is of another program
-      blockBefore_.clear();
-      return nullptr;
-    }
-    std::vector<uint8_t> joined;
-    if (from->segment != segment_) {
-      joined = eventsFrom(*from);
-      from->position = 0;
-    }
-    flow = stage().flow(*from, joined.empty() ? events() : std::span<const uint8_t>(joined), afterRun);
-  } else {
-    (void)goTo(here);
-  }
-  return flow;
+  parts = std::min(parts, here - firstPart());
+  if (parts == 0) return nullptr;
+  const std::optional<Moment> from = goTo(here - parts).empty() ? present() : std::nullopt;
+  const std::span<const uint8_t> block = instance().block();
+  std::vector<uint8_t> before(block.begin(), block.end());
+  if (from) keep();
+  if (!goTo(here).empty() || !from || from->program != stageNumber_) return nullptr; // it is of another program
+  if (parts > 1 && !isContinuous(from->segment)) return flow(afterRun, 1);
+  blockBefore_ = std::move(before);
+  return stage().flow(from->events, eventsFrom(*from), parts, afterRun);
 }
 
 std::string positionText(const Past& past) { return scenario::scanText(past.part(), past.instance().nowUs()); }

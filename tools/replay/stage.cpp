@@ -6,7 +6,6 @@
 namespace rung::replay {
 
 using runtime::Event;
-using runtime::EventWriter;
 using runtime::Played;
 
 bool playState(AnyPlayer& player, std::span<const uint8_t> events) {
@@ -57,27 +56,23 @@ std::optional<core::Code> Stage::SlowOwner::codeFor(const runtime::Forcing&) {
   return core::Code{engine.program().chunk_fns, engine.context()};
 }
 
-const Flow* Stage::flow(const Moment& from, std::span<const uint8_t> events, const FlowEngine::AfterRun& afterRun) {
+const Flow* Stage::flow(std::span<const uint8_t> state, std::span<const uint8_t> events, uint64_t parts,
+                        const FlowEngine::AfterRun& afterRun) {
   FlowEngine& engine = flowEngine();
-  if (!playState(*flowPlayer_, from.events)) return nullptr;
-  std::vector<uint8_t> again(64);
-  EventWriter writer(again);
-  size_t position = from.position;
-  std::span<const uint8_t> next = events.subspan(position);
-  if (from.repeats != 0 || takeRepeats(events, position) != 0) {
-    writer.put(Event::Part, static_cast<uint8_t>(from.kind), from.number);
-    next = writer.written();
-  }
-  flowPlayer_->setEvents(next);
-  Played played = Played::End;
+  if (!playState(*flowPlayer_, state)) return nullptr;
+  flowPlayer_->setEvents(events);
+  uint64_t played = 0;
   const Flow& flow = engine.observe(
       flowPlayer_->instance(),
       [&] {
-        do played = flowPlayer_->play();
-        while (played == Played::State || played == Played::Lost);
+        while (played < parts) {
+          const Played what = flowPlayer_->play();
+          if (what != Played::Part && what != Played::State && what != Played::Lost) return;
+          played += what == Played::Part ? 1 : 0;
+        }
       },
       afterRun);
-  return played == Played::Part ? &flow : nullptr;
+  return played == parts ? &flow : nullptr;
 }
 
 } // namespace rung::replay

@@ -46,8 +46,9 @@ public:
   FlowEngine& flowEngine();
   // The instance that runs rung by rung: after flow(), as that part left it.
   runtime::Instance& flowInstance() { return flowPlayer_->instance(); }
-  // Plays one part from the moment, rung by rung; `events` is its segment. Null if there is no part.
-  const Flow* flow(const Moment& from, std::span<const uint8_t> events, const FlowEngine::AfterRun& afterRun = {});
+  // Plays so many parts, rung by rung, from a state (Moment::events). Null if there are not so many.
+  const Flow* flow(std::span<const uint8_t> state, std::span<const uint8_t> events, uint64_t parts,
+                   const FlowEngine::AfterRun& afterRun);
 
 private:
   // Code for forces.

@@ -22,7 +22,7 @@ compiler::CompileRequest requestOf(const compile::Sources& sources) {
   request.options.config = sources.config;
   request.options.includePaths = sources.includePaths;
   request.instrument = sources.profile;
-  request.keepBuilt = true;
+  request.marks = request.keepBuilt = true; // of its recordings, contacts and coils are shown
   return request;
 }
 

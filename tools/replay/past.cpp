@@ -43,6 +43,7 @@ Result<void> Past::useStage(uint32_t number) {
     stages_[number] = std::move(made).value();
     stages_[number]->player().compare(compares_);
   }
+  if (stageNumber_ != number) scanParts_ = 0;
   stageNumber_ = number;
   watch(watch_);
   return {};
@@ -65,6 +66,7 @@ bool Past::begin(const StatePoint& point) {
   segment_ = point.segment;
   part_ = point.part;
   resumed_ = false;
+  scanBegan_.reset();
   const uint32_t first = stageNumber_;
   const auto count = static_cast<uint32_t>(recording_.programs.size());
   for (uint32_t i = 0; i < count; ++i) {
@@ -87,6 +89,7 @@ bool Past::resume(const Moment& moment) {
   segment_ = moment.segment;
   part_ = moment.part;
   if (!playState(stage().player(), moment.events)) return false;
+  scanBegan_.reset();
   againKind_ = moment.kind;
   againNumber_ = moment.number;
   againEvent_.resize(32);
@@ -140,6 +143,7 @@ bool Past::playAgain() {
   if (stage().player().play() != Played::Part) return false;
   ++part_;
   resumed_ = false;
+  noteScan();
   takeSent();
   if (--again_ == 0) play(base_);
   return true;
@@ -187,6 +191,7 @@ bool Past::next() {
     case Played::Part:
       ++part_;
       resumed_ = false;
+      noteScan();
       noteDifference();
       takeSent();
       return true;
@@ -296,14 +301,40 @@ std::string Past::goToTime(int64_t us) {
   return problem_;
 }
 
+uint64_t Past::partsPerScan() {
+  constexpr uint64_t kMost = 64;
+  if (scanParts_ == 0) { // plays on until it is known
+    const uint64_t here = part_, count = std::min(here - firstPart(), kMost);
+    if (goTo(here - count).empty()) (void)goTo(here);
+    if (scanParts_ == 0 && count == kMost) scanParts_ = 1;
+  }
+  return std::clamp<uint64_t>(scanParts_, 1, kMost);
+}
+
+// After a part.
+void Past::noteScan() {
+  if (!instance().atListStart()) return;
+  if (scanBegan_) scanParts_ = part_ - *scanBegan_;
+  scanBegan_ = part_;
+}
+
 // The events from a moment on that lead to the present position.
-std::vector<uint8_t> Past::eventsFrom(const Moment& moment) const {
-  std::vector<uint8_t> all;
-  size_t position = moment.position;
-  for (uint32_t i = moment.segment; i <= segment_; ++i, position = 0) {
-    const std::span<const uint8_t> events = std::span(recording_.segments[i].events).subspan(position);
-    if (!recording_.segments[i].continues) all.clear();
-    all.insert(all.end(), events.begin(), events.end());
+std::vector<uint8_t> Past::eventsFrom(const Moment& from) const {
+  const std::vector<Segment>& segments = recording_.segments;
+  uint32_t i = from.segment;
+  size_t begin = from.position;
+  while (begin == segments[i].events.size() && i < segment_ && segments[i + 1].continues) ++i, begin = 0;
+  const uint64_t repeats = from.repeats != 0 ? from.repeats : takeRepeats(segments[i].events, begin);
+  std::vector<uint8_t> all(32);
+  runtime::EventWriter writer(all);
+  if (repeats != 0) writer.put(Event::Part, static_cast<uint8_t>(from.kind), from.number);
+  if (repeats > 1) writer.put(Event::Repeat, repeats - 1);
+  all.resize(writer.size());
+  for (; i <= segment_; ++i, begin = 0) {
+    if (i != from.segment && !segments[i].continues) all.clear(); // it begins with a state
+    const std::span<const uint8_t> events = segments[i].events;
+    const size_t end = i == segment_ ? position() : events.size();
+    all.insert(all.end(), events.begin() + static_cast<ptrdiff_t>(begin), events.begin() + static_cast<ptrdiff_t>(end));
   }
   return all;
 }
@@ -350,35 +381,32 @@ bool Past::followsFromBefore(uint64_t part) const {
   });
 }
 
-const Flow* Past::flow(const FlowEngine::AfterRun& afterRun) {
+bool Past::isContinuous(uint32_t from) const {
+  for (uint32_t i = from + 1; i <= segment_; ++i)
+    if (!recording_.segments[i].continues) return false;
+  return true;
+}
+
+const Flow* Past::flow(const FlowEngine::AfterRun& afterRun, uint64_t parts) {
   const uint64_t here = part_;
   blockBefore_.clear();
   outside_.clear();
-  std::optional<Moment> from;
-  if (here > firstPart() && goTo(here - 1).empty()) from = beginning();
-  if (!from) {
-    (void)goTo(here);
-    return nullptr;
-  }
+  parts = std::min(parts, here - std::min(here, firstPart()));
+  if (parts == 0) return nullptr;
+  std::optional<Moment> from = goTo(here - parts).empty() ? beginning() : std::nullopt;
   const std::span<const uint8_t> block = instance().block();
-  if (followsFromBefore(here)) blockBefore_.assign(block.begin(), block.end());
-  keep(*from);
-  (void)goTo(here);
-  if (stageNumber_ != from->program) { // the part is of another program
-    blockBefore_.clear();
-    return nullptr;
-  }
-  std::vector<uint8_t> joined;
-  if (from->segment != segment_) {
-    joined = eventsFrom(*from);
-    from->position = 0;
-  }
-  const std::span<const uint8_t> next = joined.empty() ? events() : std::span<const uint8_t>(joined);
-  const uint64_t skipped = here - 1 - from->part;
-  if (from->repeats <= skipped)
-    outside_ =
-        replay::outsideWrites(from->events, next.subspan(from->position), skipped - from->repeats, recording_.mode);
-  return stage().flow(*from, next, skipped, afterRun);
+  std::vector<uint8_t> before(block.begin(), block.end());
+  if (from) keep(*from);
+  if (!goTo(here).empty() || !from) return nullptr;
+  const bool isOther = from->program != stageNumber_;
+  if (parts > 1 && (isOther || !isContinuous(from->segment))) return flow(afterRun, 1);
+  if (isOther) from = firstOf(here); // a program that takes over begins with its state
+  if (!from) return nullptr;
+  if (!isOther && followsFromBefore(here)) blockBefore_ = std::move(before);
+  const std::vector<uint8_t> events = eventsFrom(*from);
+  const uint64_t skipped = here - parts - from->part;
+  outside_ = replay::outsideWrites(from->events, events, skipped, recording_.mode);
+  return stage().flow(from->events, events, skipped, parts, afterRun);
 }
 
 std::string positionText(const Past& past) { return scenario::scanText(past.part(), past.instance().nowUs()); }

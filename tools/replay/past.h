@@ -66,12 +66,15 @@ public:
   bool next();
   const std::string& problem() const { return problem_; } // "": the end
 
-  // What happened in the part that has led to the present position, which stays. Null: at a beginning.
-  const Flow* flow(const FlowEngine::AfterRun& afterRun = {});
+  // What happened in the parts that have led to the present position, which stays; by default in the last one. Null: at
+  // a beginning, also of another program.
+  const Flow* flow(const FlowEngine::AfterRun& afterRun = {}, uint64_t parts = 1);
   // After flow(): its engine, and the instance as that part has left it.
   FlowEngine& flowEngine() { return stage().flowEngine(); }
   runtime::Instance& flowInstance() { return stage().flowInstance(); }
-  // The state before that part, of the same program; empty: the program was started, or a state loaded, in between.
+  // Parts in which every task has its turn, as the schedule of the program says: a scan of several slices.
+  uint64_t partsPerScan();
+  // The state before these parts, of the same program; empty: the program was started, or a state loaded, in between.
   std::span<const uint8_t> blockBefore() const { return blockBefore_; }
   // What others wrote before that part and within it.
   std::span<const OutsideWrite> outsideWrites() const { return outside_; }
@@ -96,7 +99,9 @@ private:
   Stage& stage() { return *stages_[stageNumber_]; }
   std::span<const uint8_t> events() const { return recording_.segments[segment_].events; }
   size_t position() const;
-  std::vector<uint8_t> eventsFrom(const Moment& moment) const;
+  std::vector<uint8_t> eventsFrom(const Moment& from) const;
+  bool isContinuous(uint32_t from) const;
+  void noteScan();
   Result<void> useStage(uint32_t number);
   bool begin(const StatePoint& point);
   bool resume(const Moment& moment);
@@ -129,6 +134,9 @@ private:
   std::vector<uint8_t> againEvent_;
   runtime::PartKind againKind_ = runtime::PartKind::Scan;
   uint32_t againNumber_ = 0;
+
+  uint64_t scanParts_ = 0;            // of the program; 0: unknown
+  std::optional<uint64_t> scanBegan_; // part; nothing: unknown
 
   std::map<uint64_t, Moment> kept_; // by part
   size_t keptBytes_ = 0;

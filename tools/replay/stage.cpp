@@ -6,7 +6,6 @@
 namespace rung::replay {
 
 using runtime::Event;
-using runtime::EventWriter;
 using runtime::Played;
 
 bool playState(runtime::Player& player, std::span<const uint8_t> events) {
@@ -57,32 +56,23 @@ std::optional<core::Code> Stage::SlowOwner::codeFor(const runtime::Forcing&) {
   return core::Code{engine.program().chunk_fns, engine.context()};
 }
 
-const Flow* Stage::flow(const Moment& from, std::span<const uint8_t> events, uint64_t skipped,
-                        const FlowEngine::AfterRun& afterRun) {
+const Flow* Stage::flow(std::span<const uint8_t> state, std::span<const uint8_t> events, uint64_t skipped,
+                        uint64_t parts, const FlowEngine::AfterRun& afterRun) {
   FlowEngine& engine = flowEngine();
-  if (!playState(*flowPlayer_, from.events)) return nullptr;
-  std::vector<uint8_t> again(64);
-  EventWriter writer(again);
-  writer.put(Event::Part, static_cast<uint8_t>(from.kind), from.number);
-  size_t position = from.position;
-  uint64_t repeats = from.repeats != 0 ? from.repeats : takeRepeats(events, position);
-  if (repeats == 0) flowPlayer_->setEvents(events.subspan(position));
-  const auto playPart = [&] {
-    if (repeats != 0) {
-      flowPlayer_->setEvents(writer.written());
-      const Played played = flowPlayer_->play();
-      if (--repeats == 0) flowPlayer_->setEvents(events.subspan(position));
-      return played;
+  if (!playState(*flowPlayer_, state)) return nullptr;
+  flowPlayer_->setEvents(events);
+  const auto play = [&](uint64_t count) {
+    while (count != 0) {
+      const Played what = flowPlayer_->play();
+      if (what != Played::Part && what != Played::State && what != Played::Lost) return false;
+      count -= what == Played::Part ? 1 : 0;
     }
-    Played played = Played::State;
-    while (played == Played::State || played == Played::Lost) played = flowPlayer_->play();
-    return played;
+    return true;
   };
-  for (; skipped != 0; --skipped)
-    if (playPart() != Played::Part) return nullptr;
-  Played played = Played::End;
-  const Flow& flow = engine.observe(flowPlayer_->instance(), [&] { played = playPart(); }, afterRun);
-  return played == Played::Part ? &flow : nullptr;
+  if (!play(skipped)) return nullptr;
+  bool played = false;
+  const Flow& flow = engine.observe(flowPlayer_->instance(), [&] { played = play(parts); }, afterRun);
+  return played ? &flow : nullptr;
 }
 
 } // namespace rung::replay

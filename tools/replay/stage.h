@@ -46,10 +46,10 @@ public:
   FlowEngine& flowEngine();
   // The instance that runs rung by rung: after flow(), as that part left it.
   runtime::Instance& flowInstance() { return flowPlayer_->instance(); }
-  // Plays from the moment, rung by rung, one part after `skipped` others; `events` is its segment. Null if there is no
-  // such part.
-  const Flow* flow(const Moment& from, std::span<const uint8_t> events, uint64_t skipped,
-                   const FlowEngine::AfterRun& afterRun = {});
+  // Plays so many parts, rung by rung, after `skipped` others from a state (Moment::events). Null if there are not so
+  // many.
+  const Flow* flow(std::span<const uint8_t> state, std::span<const uint8_t> events, uint64_t skipped, uint64_t parts,
+                   const FlowEngine::AfterRun& afterRun);
 
 private:
   // Code for forces.

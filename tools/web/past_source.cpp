@@ -224,7 +224,8 @@ void PastSource::fill(Picture& picture, const std::set<std::string>& names) {
   picture.state = state();
   picture.follows = running_;
   if (past_->instance().faulted()) picture.fault = past_->instance().faultText();
-  if (const replay::Flow* flow = past_->flow())
+  // Tasks may run in different slices: each element as in its last run within a scan.
+  if (const replay::Flow* flow = past_->flow({}, past_->partsPerScan()))
     picture.elements = shown.states.of(*flow, past_->flowInstance().block());
   for (const std::string& name : names)
     if (std::string value = valueOf(name); !value.empty()) picture.values.emplace(name, std::move(value));

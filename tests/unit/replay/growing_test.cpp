@@ -147,6 +147,13 @@ TEST_F(Growing, WhatIsWrittenIsTakenWheneverABlockIsWhole) {
       ASSERT_EQ(lampAt(past, parts), host_.lamps[parts - 1]) << parts;
       ASSERT_NE(past.flow(), nullptr) << parts;
       ASSERT_EQ(past.flowInstance().nowUs(), past.instance().nowUs()) << "the same part ran rung by rung";
+      if (parts > 3) { // each rung runs in each slot
+        const Flow* three = past.flow({}, 3);
+        ASSERT_NE(three, nullptr) << parts;
+        ASSERT_EQ(three->timesRun()[0], 3u) << parts;
+        ASSERT_EQ(past.flowInstance().nowUs(), past.instance().nowUs());
+        ASSERT_EQ(past.partsPerScan(), 1u);
+      }
       const uint64_t before = 1 + random() % parts;
       ASSERT_EQ(lampAt(past, before), host_.lamps[before - 1]) << before;
     }

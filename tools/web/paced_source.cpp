@@ -194,7 +194,7 @@ Result<Shares> PacedSource::readShares(uint64_t scans) {
   for (const replay::SourceRung& rung : elements.rungs()) shares.rungs.push_back({rung.number, 0, 0});
   const std::string problem = visit(shares.firstScan, shares.lastScan, [&] {
     const replay::Flow* flow = shownFlow();
-    if (flow == nullptr) return;
+    if (flow == nullptr || &flowEngine().elements() != &elements) return; // before another program took over
     const std::vector<uint32_t> times = flow->timesRun();
     for (size_t i = 0; i < times.size(); ++i) shares.rungs[i].runs += times[i];
     for (const replay::RungFlow& run : flow->runs())

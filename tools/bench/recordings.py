@@ -29,8 +29,9 @@ take on the disk, with states every ten seconds, extrapolated from this. All sca
 and a hash of the outputs is compared after each one, and the whole state at each recorded one:
 "differences". "Played" is processor time.
 
-Instructions are exact counts by callgrind for the part program, as [above](#instructions-of-the-example-machines): of
-a scan or slot without a recorder, and what the recorder adds.
+Instructions are exact counts by callgrind for the part program, as
+[above](#instructions-of-the-example-machines): of a scan or slot without a recorder, and what the
+recorder adds.
 """
 
 

@@ -60,7 +60,7 @@ def measure(tools, scans):
     rows = {}
     with tempfile.TemporaryDirectory() as folder:
         for machine in machines.MACHINES:
-            at_work = json.loads(run(tools / "rung-bench-work", scenario(machine), piece(machine), scans, Path(folder) / machine, cwd=ROOT))
+            at_work = json.loads(run(tools / "rung-bench-work", scenario(machine), piece(machine), scans, cwd=ROOT))
             rows[machine] = {**at_work, "instructions": instructions(tools, machine, folder)}
     return rows
 

@@ -1,6 +1,6 @@
-// rung-bench-work SCENARIO PIECE SCANS FOLDER: what a recording of a machine at work takes, and whether it is played as
+// rung-bench-work SCENARIO PIECE SCANS: what a recording of a machine at work takes, and whether it is played as
 // it was. The scenario runs, then the statements of PIECE again and again, with the simulated control. Beside it the
-// same program runs as in a host (replay.h) up to so many scans, and records into FOLDER what the machine writes. Then
+// same program runs as in a host (replay.h) up to so many scans, and records what the machine writes. Then
 // the recording is played, and a hash of all outputs compared after each scan with that of the run. Prints the figures
 // as JSON.
 #include <cstdlib>
@@ -19,6 +19,7 @@
 #include <nlohmann/json.hpp>
 
 #include "compiler/embedded_ir.h"
+#include "ir/support/temporary_folder.h"
 #include "rtlib/load/block_bytes.h"
 #include "rtlib/record/recording_file.h"
 #include "rtlib/record/watched_bytes.h"
@@ -55,8 +56,10 @@ runtime::WatchedBytes outputsOf(const rung_program& program) {
 
 class Work {
 public:
-  Work(const std::string& scenario, const std::string& piece, uint64_t scans, std::string folder)
-      : scenario_(read(scenario)), piece_(read(piece)), scans_(scans), folder_(std::move(folder)) {}
+  Work(const std::string& scenario, const std::string& piece, uint64_t scans)
+      : scenario_(read(scenario)), piece_(read(piece)), scans_(scans) {
+    if (!temporary_.ok()) throw std::runtime_error("there is no folder for the recording");
+  }
 
   // The first pieces show which bytes the machine writes alone.
   void probe() {
@@ -168,7 +171,8 @@ private:
 
   scenario::Scenario scenario_, piece_;
   uint64_t scans_;
-  std::string folder_;
+  TemporaryFolder temporary_;
+  std::string folder_ = temporary_ / "recording";
   bench::Recording probe_;
   std::unique_ptr<bench::Recorder> recorder_;
   std::optional<runtime::WatchedBytes> watched_;
@@ -181,11 +185,11 @@ private:
 } // namespace
 
 int main(int argc, char** argv) try {
-  if (argc != 5) {
-    std::cerr << "usage: rung-bench-work SCENARIO PIECE SCANS FOLDER\n";
+  if (argc != 4) {
+    std::cerr << "usage: rung-bench-work SCENARIO PIECE SCANS\n";
     return 2;
   }
-  Work work(argv[1], argv[2], std::strtoull(argv[3], nullptr, 10), argv[4]);
+  Work work(argv[1], argv[2], std::strtoull(argv[3], nullptr, 10));
   work.probe();
   work.record();
   work.play();

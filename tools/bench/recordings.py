@@ -29,8 +29,9 @@ take on the disk, with states every ten seconds, extrapolated from this. All sca
 and a hash of the outputs is compared after each one, and the whole state at each recorded one:
 "differences". "Played" is processor time.
 
-Instructions are exact counts by callgrind for the part program, as [above](#instructions-of-the-example-machines): of
-a scan or slot without a recorder, and what the recorder adds.
+Instructions are exact counts by callgrind for the part program, as
+[above](#instructions-of-the-example-machines): of a scan or slot without a recorder, and what the
+recorder adds.
 """
 
 
@@ -59,7 +60,7 @@ def measure(tools, scans):
     rows = {}
     with tempfile.TemporaryDirectory() as folder:
         for machine in machines.MACHINES:
-            at_work = json.loads(run(tools / "rung-bench-work", scenario(machine), piece(machine), scans, Path(folder) / machine, cwd=ROOT))
+            at_work = json.loads(run(tools / "rung-bench-work", scenario(machine), piece(machine), scans, cwd=ROOT))
             rows[machine] = {**at_work, "instructions": instructions(tools, machine, folder)}
     return rows
 

@@ -208,4 +208,45 @@ TEST_F(Recording, PlayedAgainDoesTheSame) {
   }
 }
 
+// Short forms after that place refer to events before it, which the state has.
+TEST_F(Recording, ContinuesFromTheStateOfAPlayer) {
+  record(7, 600, {.stateEveryUs = 1'000'000'000});
+  Instance instance(program.program);
+  BytesPlayer player(instance, owner);
+  player.setEvents(events);
+  size_t parts = 0, continued = 0;
+  for (Played played = player.play(); played != Played::End; played = player.play()) {
+    if (played == Played::Part && ++parts % 7 != 0) continue;
+    if (player.repeatsLeft() != 0 || !instance.forcedBits().empty()) continue;
+    const std::vector<uint8_t> state = player.state();
+    if (state.empty()) continue; // within a scan
+    Instance another(program.program);
+    BytesPlayer other(another, owner);
+    other.setEvents(state);
+    ASSERT_EQ(other.play(), Played::State);
+    ASSERT_EQ(other.play(), Played::End);
+    other.setEvents(std::span(events).subspan(player.position()));
+    for (size_t part = parts; part < std::min(parts + 20, after.size()); ++part) {
+      ASSERT_EQ(other.play(), Played::Part) << "from part " << parts << " to " << part;
+      ASSERT_EQ(known(another), after[part]) << "from part " << parts << " to " << part;
+    }
+    ++continued;
+  }
+  EXPECT_EQ(parts, after.size());
+  EXPECT_GT(continued, 10u);
+}
+
+TEST_F(Recording, AShortFormWithoutWhatItRefersToIsDamage) {
+  record(3, 10);
+  for (const uint8_t form : {static_cast<uint8_t>(Event::Next), uint8_t{Places::kShort}, uint8_t{255}}) {
+    Instance instance(program.program);
+    BytesPlayer player(instance, owner);
+    player.setEvents(events);
+    ASSERT_EQ(player.play(), Played::State);
+    const uint8_t alone[] = {form, 0, 0};
+    player.setEvents(alone);
+    EXPECT_EQ(player.play(), Played::Damaged) << static_cast<int>(form);
+  }
+}
+
 } // namespace

@@ -2,6 +2,7 @@
 #include "tools/bench/machines/recorder.h"
 
 #include <algorithm>
+#include <cstring>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -28,8 +29,8 @@ std::vector<runtime::LogicalByte> bytesOf(const rung_program& program) {
 struct Recorder::Beside {
   Beside(scenario::Session& of, const compiler::Compiled& program, compiler::EngineKind kind, EachPart receiver)
       : session(of), each(std::move(receiver)), engine(engineOf(program, kind)),
-        image(rung::Image::adopt(engine->program(), engine->context())), replay(image), bytes(bytesOf(engine->program())),
-        inSlots(of.nc().control().runsInSlots()) {}
+        image(rung::Image::adopt(engine->program(), engine->context())), replay(image),
+        bytes(bytesOf(engine->program())), inSlots(of.nc().control().runsInSlots()) {}
 
   static std::unique_ptr<runtime::Engine> engineOf(const compiler::Compiled& program, compiler::EngineKind kind) {
     auto engine = compiler::makeEngine(kind, program, {});
@@ -56,14 +57,12 @@ struct Recorder::Beside {
 std::vector<Writes> Recorder::Beside::differences(const runtime::Instance& to) const {
   const std::span<const uint8_t> from = replay.inside().block(), now = to.block();
   std::set<std::pair<uint32_t, uint32_t>> different; // space, byte
-  for (size_t at = 0; at < bytes.size();) {
-    at = static_cast<size_t>(std::mismatch(from.begin() + static_cast<ptrdiff_t>(at),
-                                           from.begin() + static_cast<ptrdiff_t>(bytes.size()),
-                                           now.begin() + static_cast<ptrdiff_t>(at))
-                                 .first -
-                             from.begin());
-    if (at < bytes.size() && bytes[at].space != RUNG_NONE) different.emplace(bytes[at].space, bytes[at].byte);
-    ++at;
+  constexpr size_t kStep = 256;
+  for (size_t at = 0; at < bytes.size(); at += kStep) {
+    const size_t end = std::min(at + kStep, bytes.size());
+    if (std::memcmp(from.data() + at, now.data() + at, end - at) == 0) continue;
+    for (size_t i = at; i < end; ++i)
+      if (from[i] != now[i] && bytes[i].space != RUNG_NONE) different.emplace(bytes[i].space, bytes[i].byte);
   }
   std::vector<Writes> all;
   const rung_program& program = to.program();

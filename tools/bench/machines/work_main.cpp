@@ -1,6 +1,6 @@
-// rung-bench-work SCENARIO PIECE SCANS FOLDER: what a recording of a machine at work takes, and whether it is played as
+// rung-bench-work SCENARIO PIECE SCANS: what a recording of a machine at work takes, and whether it is played as
 // it was. The scenario runs, then the statements of PIECE again and again, with the simulated control. Beside it the
-// same program runs as in a host (replay.h) up to so many scans, and records into FOLDER what the machine writes. Then
+// same program runs as in a host (replay.h) up to so many scans, and records what the machine writes. Then
 // the recording is played, and a hash of all outputs compared after each scan with that of the run. Prints the figures
 // as JSON.
 #include <cstdlib>
@@ -10,6 +10,8 @@
 #include <functional>
 #include <iostream>
 #include <memory>
+#include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -17,7 +19,10 @@
 #include <nlohmann/json.hpp>
 
 #include "compiler/embedded_ir.h"
+#include "ir/support/temporary_folder.h"
+#include "rtlib/load/block_bytes.h"
 #include "rtlib/record/recording_file.h"
+#include "rtlib/record/watched_bytes.h"
 #include "tools/bench/machines/recorder.h"
 #include "tools/replay/growing_recording.h"
 #include "tools/replay/past.h"
@@ -39,21 +44,23 @@ double cpuSeconds() {
   return static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec) / 1e9;
 }
 
-// Outputs of the program, in the order of its spaces.
-uint64_t outputsOf(const runtime::Instance& instance) {
-  uint64_t hash = 14695981039346656037u;
-  const rung_program& program = instance.program();
-  for (uint32_t space = 0; space < program.space_count; ++space)
-    if ((program.spaces[space].flags & RUNG_SPACE_OUTPUT) != 0)
-      for (uint32_t byte = 0; byte < program.spaces[space].byte_count; ++byte)
-        hash = (hash ^ instance.memory().readByte(space, byte)) * 1099511628211u;
-  return hash;
+// The outputs of a program, whose hash is taken after each scan.
+runtime::WatchedBytes outputsOf(const rung_program& program) {
+  runtime::BlockBytes bytes(program.memory_size);
+  for (const rung_space& space : std::span(program.spaces, program.space_count)) {
+    if ((space.flags & RUNG_SPACE_OUTPUT) == 0) continue;
+    for (const rung_range& range : std::span(space.ranges, space.range_count))
+      runtime::mark(bytes, range.offset, range.byte_count * (range.repr == RUNG_REPR_BYTE_PER_BIT ? size_t{8} : 1));
+  }
+  return {program, bytes};
 }
 
 class Work {
 public:
-  Work(const std::string& scenario, const std::string& piece, uint64_t scans, std::string folder)
-      : scenario_(read(scenario)), piece_(read(piece)), scans_(scans), folder_(std::move(folder)) {}
+  Work(const std::string& scenario, const std::string& piece, uint64_t scans)
+      : scenario_(read(scenario)), piece_(read(piece)), scans_(scans) {
+    if (!temporary_.ok()) throw std::runtime_error("there is no folder for the recording");
+  }
 
   // The first pieces show which bytes the machine writes alone.
   void probe() {
@@ -64,12 +71,12 @@ public:
 
   void record() {
     const auto started = [&](bench::Recorder& recorder, const compiler::Compiled& program) {
+      watched_.emplace(outputsOf(recorder.replay().inside().program()));
       recorder.replay().record(probe_, folder_);
       recorder.replay().addProgram(program.codeHash, compiler::irText(program));
     };
     const auto each = [&](bench::Part&&) {
-      const runtime::Instance& inside = recorder_->replay().inside();
-      outputs_.push_back(outputsOf(inside));
+      outputs_.push_back(watched_->hash(recorder_->replay().inside().block().data()));
       constexpr size_t kBlock = 80; // parts, as if each took a millisecond
       if (outputs_.size() % kBlock == 0) state_ = recorder_->replay().recorded();
     };
@@ -89,7 +96,8 @@ public:
     const double begin = cpuSeconds();
     uint64_t played = past.part();
     for (; past.next(); ++played)
-      if (played < outputs_.size() && outputsOf(past.instance()) != outputs_[played]) ++differences_;
+      if (played < outputs_.size() && watched_->hash(past.instance().block().data()) != outputs_[played])
+        ++differences_;
     playedSeconds_ = cpuSeconds() - begin;
     if (!past.problem().empty()) throw std::runtime_error(past.problem());
     if (played != outputs_.size())
@@ -164,10 +172,12 @@ private:
 
   scenario::Scenario scenario_, piece_;
   uint64_t scans_;
-  std::string folder_;
+  TemporaryFolder temporary_;
+  std::string folder_ = temporary_ / "recording";
   bench::Recording probe_;
   std::unique_ptr<bench::Recorder> recorder_;
-  std::vector<uint64_t> outputs_; // after each scan
+  std::optional<runtime::WatchedBytes> watched_;
+  std::vector<uint32_t> outputs_; // their hash after each scan
   runtime::RecordingState state_;
   uint64_t pieces_ = 0, states_ = 0, events_ = 0, differences_ = 0;
   double playedSeconds_ = 0;
@@ -176,11 +186,11 @@ private:
 } // namespace
 
 int main(int argc, char** argv) try {
-  if (argc != 5) {
-    std::cerr << "usage: rung-bench-work SCENARIO PIECE SCANS FOLDER\n";
+  if (argc != 4) {
+    std::cerr << "usage: rung-bench-work SCENARIO PIECE SCANS\n";
     return 2;
   }
-  Work work(argv[1], argv[2], std::strtoull(argv[3], nullptr, 10), argv[4]);
+  Work work(argv[1], argv[2], std::strtoull(argv[3], nullptr, 10));
   work.probe();
   work.record();
   work.play();

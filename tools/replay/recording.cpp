@@ -199,6 +199,10 @@ Contents::Contents(const Recording& recording, const See& see) : parts(recording
   std::ranges::stable_sort(landmarks, {}, &Landmark::part);
 }
 
+std::span<const Landmark> Contents::landmarksAt(uint64_t part) const {
+  return std::ranges::equal_range(landmarks, part, {}, &Landmark::part);
+}
+
 // ---- files -------------------------------------------------------------------------------------------------------
 
 namespace {

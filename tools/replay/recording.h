@@ -79,8 +79,10 @@ struct Contents {
   explicit Contents(const Recording& recording, const See& see = {});
 
   uint64_t parts = 0;
-  std::vector<StatePoint> states;     // ascending
-  std::vector<Landmark> landmarks;    // by part
+  std::vector<StatePoint> states;  // ascending
+  std::vector<Landmark> landmarks; // by part
+  // Those with so many parts before them.
+  std::span<const Landmark> landmarksAt(uint64_t part) const;
   std::vector<uint64_t> segmentParts; // by segment: parts before it
   std::vector<ForceChange> forces;    // by part
 };

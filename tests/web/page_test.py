@@ -114,7 +114,7 @@ class Page(unittest.TestCase):
         self.browser.js("[...document.querySelectorAll('#detail dd')][0].querySelector('a').click()")
         self.browser.until("return document.querySelector('article.now')?.id === arguments[0]", link, "r" + link)
         self.browser.js("[...document.querySelectorAll('#detail button')].find(b => b.textContent === 'Why?').click()")
-        self.browser.until("return /CW_ORDER = [01]/.test(document.querySelector('.why')?.textContent)", "why")
+        self.browser.until("return /CW_ORDER \\(\\S+\\) = [01], (since|unchanged)/.test(document.querySelector('.why')?.textContent)", "why")
 
     def test_watch(self):
         self.browser.click("#tab-watch")

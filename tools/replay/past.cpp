@@ -374,10 +374,10 @@ std::optional<Moment> Past::firstOf(uint64_t part) const {
 
 // Whether nothing but the part lies between the states before and after it.
 bool Past::followsFromBefore(uint64_t part) const {
-  return std::ranges::none_of(contents_.landmarks, [&](const Landmark& landmark) {
-    const bool breaks = landmark.kind == Landmark::Kind::Start || landmark.kind == Landmark::Kind::Lost ||
-                        landmark.kind == Landmark::Kind::Damaged;
-    return breaks && landmark.part + 1 == part && landmark.part > firstPart();
+  if (part <= firstPart() + 1) return true;
+  return std::ranges::none_of(contents_.landmarksAt(part - 1), [](const Landmark& landmark) {
+    return landmark.kind == Landmark::Kind::Start || landmark.kind == Landmark::Kind::Lost ||
+           landmark.kind == Landmark::Kind::Damaged;
   });
 }
 

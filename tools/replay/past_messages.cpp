@@ -13,9 +13,9 @@ bool isIn(const nc::ShownMessage& message, const std::vector<nc::ShownMessage>& 
 
 // Whether the program was started, or its state replaced, before the part that has led to the position.
 bool startedBefore(const Past& past) {
-  return std::ranges::any_of(past.contents().landmarks, [&](const Landmark& landmark) {
-    return landmark.kind == Landmark::Kind::Start && landmark.part + 1 == past.part();
-  });
+  return past.part() != 0 &&
+         std::ranges::any_of(past.contents().landmarksAt(past.part() - 1),
+                             [](const Landmark& landmark) { return landmark.kind == Landmark::Kind::Start; });
 }
 
 } // namespace

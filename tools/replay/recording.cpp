@@ -244,6 +244,10 @@ void Contents::grow(const Recording& recording, const See& see) {
   drop(recording);
 }
 
+std::span<const Landmark> Contents::landmarksAt(uint64_t part) const {
+  return std::ranges::equal_range(landmarks, part, {}, &Landmark::part);
+}
+
 uint64_t Contents::partAt(const Recording& recording, int64_t wallUs) const {
   for (auto i = static_cast<uint32_t>(segmentParts.size()); i-- > recording.firstSegment;) {
     const Segment& segment = recording.segments[i];

@@ -94,6 +94,8 @@ public:
   std::vector<uint64_t> segmentParts; // by segment: parts before it
   std::vector<ForceChange> forces;    // by part
 
+  // Those with so many parts before them.
+  std::span<const Landmark> landmarksAt(uint64_t part) const;
   // Parts that had run at this time, about; of a recording whose segments have times.
   uint64_t partAt(const Recording& recording, int64_t wallUs) const;
 

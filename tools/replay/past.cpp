@@ -66,7 +66,6 @@ bool Past::begin(const StatePoint& point) {
   segment_ = point.segment;
   part_ = point.part;
   resumed_ = false;
-  scanBegan_.reset();
   const uint32_t first = stageNumber_;
   const auto count = static_cast<uint32_t>(recording_.programs.size());
   for (uint32_t i = 0; i < count; ++i) {
@@ -89,7 +88,6 @@ bool Past::resume(const Moment& moment) {
   segment_ = moment.segment;
   part_ = moment.part;
   if (!playState(stage().player(), moment.events)) return false;
-  scanBegan_.reset();
   againKind_ = moment.kind;
   againNumber_ = moment.number;
   againEvent_.resize(32);
@@ -143,7 +141,6 @@ bool Past::playAgain() {
   if (stage().player().play() != Played::Part) return false;
   ++part_;
   resumed_ = false;
-  noteScan();
   takeSent();
   if (--again_ == 0) play(base_);
   return true;
@@ -191,7 +188,6 @@ bool Past::next() {
     case Played::Part:
       ++part_;
       resumed_ = false;
-      noteScan();
       noteDifference();
       takeSent();
       return true;
@@ -301,21 +297,43 @@ std::string Past::goToTime(int64_t us) {
   return problem_;
 }
 
-uint64_t Past::partsPerScan() {
-  constexpr uint64_t kMost = 64;
-  if (scanParts_ == 0) { // plays on until it is known
-    const uint64_t here = part_, count = std::min(here - firstPart(), kMost);
-    if (goTo(here - count).empty()) (void)goTo(here);
-    if (scanParts_ == 0 && count == kMost) scanParts_ = 1;
-  }
-  return std::clamp<uint64_t>(scanParts_, 1, kMost);
-}
+namespace {
 
-// After a part.
-void Past::noteScan() {
-  if (!instance().atListStart()) return;
-  if (scanBegan_) scanParts_ = part_ - *scanBegan_;
-  scanBegan_ = part_;
+// The parts between two runs of each task.
+class TaskPeriods final : public runtime::TaskWatch {
+public:
+  explicit TaskPeriods(const uint64_t& part) : part_(part) {}
+  void begins(const runtime::Instance&, uint32_t task) override {
+    const auto [at, isNew] = last_.try_emplace(task, part_);
+    if (!isNew) longest_ = std::max(longest_, part_ - std::exchange(at->second, part_));
+  }
+  void ended(const runtime::Instance&, uint32_t) override {}
+  uint64_t longest() const { return longest_; }
+
+private:
+  const uint64_t& part_;
+  std::map<uint32_t, uint64_t> last_;
+  uint64_t longest_ = 1;
+};
+
+} // namespace
+
+uint64_t Past::partsPerScan() {
+  constexpr uint64_t kLooked = 128, kValid = 1000; // parts
+  if (scanParts_ != 0 && scanKnown_ <= part_ && part_ - scanKnown_ < kValid) return scanParts_;
+  const uint64_t here = part_;
+  if (!goTo(here - std::min(here - firstPart(), kLooked)).empty()) {
+    (void)goTo(here);
+    return 1;
+  }
+  TaskPeriods periods(part_);
+  runtime::Instance& watched = stage().player().instance();
+  watched.setTaskWatch(&periods);
+  (void)goTo(here);
+  watched.setTaskWatch(nullptr);
+  scanParts_ = periods.longest();
+  scanKnown_ = here;
+  return scanParts_;
 }
 
 // The events from a moment on that lead to the present position.

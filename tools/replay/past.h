@@ -72,7 +72,7 @@ public:
   // After flow(): its engine, and the instance as that part has left it.
   FlowEngine& flowEngine() { return stage().flowEngine(); }
   runtime::Instance& flowInstance() { return stage().flowInstance(); }
-  // Parts in which every task has its turn, as the schedule of the program says: a scan of several slices.
+  // Parts in which every task has its turn, as they have run lately: a scan of several slices.
   uint64_t partsPerScan();
   // The state before these parts, of the same program; empty: the program was started, or a state loaded, in between.
   std::span<const uint8_t> blockBefore() const { return blockBefore_; }
@@ -101,7 +101,6 @@ private:
   size_t position() const;
   std::vector<uint8_t> eventsFrom(const Moment& from) const;
   bool isContinuous(uint32_t from) const;
-  void noteScan();
   Result<void> useStage(uint32_t number);
   bool begin(const StatePoint& point);
   bool resume(const Moment& moment);
@@ -135,8 +134,8 @@ private:
   runtime::PartKind againKind_ = runtime::PartKind::Scan;
   uint32_t againNumber_ = 0;
 
-  uint64_t scanParts_ = 0;            // of the program; 0: unknown
-  std::optional<uint64_t> scanBegan_; // part; nothing: unknown
+  uint64_t scanParts_ = 0; // of the program; 0: unknown
+  uint64_t scanKnown_ = 0; // the part where it was determined
 
   std::map<uint64_t, Moment> kept_; // by part
   size_t keptBytes_ = 0;

@@ -120,25 +120,27 @@ json jsonOf(host::PinType type, const host::Value& value) {
 
 } // namespace
 
-// Empty if no thread scans the program.
-std::vector<host::Value> Status::pinValues() {
+Status::PinValues Status::pinValues() {
+  const size_t count = plc_.host().pins().size();
   struct {
     const host::PlcHost& plc;
-    std::vector<host::Value> values;
-  } looking{plc_.host(), std::vector<host::Value>(plc_.host().pins().size())};
+    PinValues pins;
+  } looking{plc_.host(), {std::vector<host::Value>(count), std::make_unique<bool[]>(count)}};
   host::Command look{.kind = host::Command::Kind::Act,
                      .act =
                          [](void* actor) {
                            auto& what = *static_cast<decltype(looking)*>(actor);
-                           what.plc.lookAtPins(what.values);
+                           what.plc.lookAtPins(what.pins.values);
+                           what.plc.lookAtOverwritten({what.pins.overwritten.get(), what.pins.values.size()});
                          },
                      .actor = &looking};
-  return plc_.host().post(look).ok() ? looking.values : std::vector<host::Value>();
+  if (!plc_.host().post(look).ok()) return {};
+  return std::move(looking.pins);
 }
 
 json Status::map(const Peer&, const json&) {
   const host::File& map = plc_.host().map();
-  const std::vector<host::Value> values = pinValues();
+  const PinValues now = pinValues();
   json pins = json::array();
   for (uint32_t i = 0; i < map.pins.size(); ++i) {
     const host::Pin& pin = map.pins[i];
@@ -148,7 +150,9 @@ json Status::map(const Peer&, const json&) {
                     {"uses", usesOf(map, i)},
                     {"file", map.paths[pin.at.file]},
                     {"line", pin.at.line}});
-    if (!values.empty()) pins.back()["value"] = jsonOf(pin.type, values[i]);
+    if (now.values.empty()) continue;
+    pins.back()["value"] = jsonOf(pin.type, now.values[i]);
+    if (now.overwritten[i]) pins.back()["overwritten"] = true;
   }
   json permissions = json::array();
   for (size_t i = 0; i < std::size(host::kRemoteNames); ++i)

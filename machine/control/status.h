@@ -1,6 +1,7 @@
 // Read-only reports about a host: the state of its program, its pins, and the profile of its rungs.
 #pragma once
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -31,7 +32,11 @@ public:
   nlohmann::json profile(const Peer& peer, const nlohmann::json& request);
 
 private:
-  std::vector<host::Value> pinValues();
+  struct PinValues {
+    std::vector<host::Value> values; // empty: no thread scans the program
+    std::unique_ptr<bool[]> overwritten;
+  };
+  PinValues pinValues();
   std::vector<rung_timer_info> runningTimers();
   std::vector<rung_profile> counters();
 

@@ -110,6 +110,11 @@ void PlcHost::bindValues() {
       toProgram_.push_back(i);
       feeds_.push_back({link.name, "pin " + map_.pins[link.pin].name, {}});
       for (const uint32_t pin : link.bits) feeds_.back().bits.push_back(map_.pins[pin].name);
+      rung_cell cell = 0;
+      const bool isBits = link.type == PinType::Bit || !link.bits.empty();
+      if (isBits && link.direction == Direction::In &&
+          rung_instance_find(plc_.handle(), link.name.c_str(), RUNG_WRITE, &cell) == RUNG_OK)
+        fedBits_.emplace_back(i, cell);
     }
     if (fromProgram(link.direction)) {
       bind(link, values_[i], RUNG_FROM_PROGRAM, link.scale);
@@ -396,6 +401,19 @@ void PlcHost::readPins() noexcept {
 
 void PlcHost::writePins() noexcept {
   for (const size_t i : fromProgram_) setPins(binding_.links[i], values_[i]);
+}
+
+// Pins are only copied to a program that runs.
+void PlcHost::lookAtOverwritten(std::span<bool> overwritten) const noexcept {
+  if (!running() || !hasRun_ || (state().flags & RUNG_STATE_STOPPED) != 0) return;
+  for (const auto& [i, cell] : fedBits_) {
+    rung_value now{};
+    if (rung_instance_read(plc_.handle(), cell, 0, 1, &now) != RUNG_OK) continue;
+    const PinLink& link = binding_.links[i];
+    if (link.bits.empty()) overwritten[link.pin] = (now.integer != 0) != values_[i].bit;
+    for (size_t bit = 0; bit < link.bits.size(); ++bit)
+      overwritten[link.bits[bit]] = ((static_cast<uint64_t>(now.integer) ^ values_[i].u32) >> bit & 1) != 0;
+  }
 }
 
 void PlcHost::setPins(const PinLink& link, const Value& value) noexcept {

@@ -10,6 +10,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "machine/host/binding.h"
@@ -91,6 +92,9 @@ public:
   // Scan thread: reads the current values of the pins. `values` has one value per pin; nothing is read before
   // `connect`.
   void lookAtPins(std::span<Value> values) const noexcept { pins_.look(values); }
+  // Scan thread: whether the program has another value than a pin of a bit gave it in the last slice, because the
+  // simulated control, a force or a rung has written it since. `overwritten` has one entry per pin.
+  void lookAtOverwritten(std::span<bool> overwritten) const noexcept;
   // Sets how long the program may run in one step; a longer run is a fault. 0: only the budgets apply.
   void setTimeLimit(int64_t ns) noexcept {
     constexpr int64_t kHour = 3'600'000'000'000; // the largest limit
@@ -197,8 +201,9 @@ private:
   const std::string recordingFolder_; // "": nothing is recorded
   const char* const reset_;
   Binding binding_;
-  std::vector<Value> values_, constants_;       // bound to the program; indexed as the entries of binding_
-  std::vector<size_t> toProgram_, fromProgram_; // indices of links
+  std::vector<Value> values_, constants_;             // bound to the program; indexed as the entries of binding_
+  std::vector<size_t> toProgram_, fromProgram_;       // indices of links
+  std::vector<std::pair<size_t, rung_cell>> fedBits_; // links of bits that only pins feed, and their cells
   std::vector<Feed> feeds_;
   std::unique_ptr<FunctionQueue> functions_; // set once the map is bound
   Pins pins_;

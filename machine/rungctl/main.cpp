@@ -174,7 +174,8 @@ int map(Client& client, const Words& words) {
   std::string text;
   size_t width = 0;
   const auto pinOf = [](const json& pin) {
-    return shown(pin["name"]) + (pin.contains("value") ? " = " + shown(pin["value"]) : "");
+    return shown(pin["name"]) + (pin.contains("value") ? " = " + shown(pin["value"]) : "") +
+           (pin.value("overwritten", false) ? ", overwritten" : "");
   };
   for (const json& pin : answer["pins"]) width = std::max(width, pinOf(pin).size());
   for (const json& pin : answer["pins"]) {

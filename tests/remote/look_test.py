@@ -923,6 +923,36 @@ class Top(Retaining):
         self.ctl("top", "--once", "--host", "none", status=WRONG)
 
 
+class Overwritten(Host):
+    """Pins that feed the program, and what has another value in it."""
+    map = MAP.replace("[out]\n", 'ready = { type = "bit", name = "F1.7" }\n[out]\n')
+
+    def marked(self):
+        return [pin["name"] for pin in json.loads(self.ctl("map", "--json"))["pins"] if pin.get("overwritten")]
+
+    def test_by_a_force(self):
+        self.assertEqual(self.marked(), [])
+        self.ctl("force", "X0.0", 1)
+        self.wait(lambda: self.marked() == ["run"])
+        self.assertRegex(self.ctl("map"), r"\nin +bit +run = false, overwritten +X0\.0 |^in +bit +run = false, overwritten +X0\.0 ")
+        self.ctl("stop")  # which ends it
+        self.ctl("start")
+        self.wait(lambda: self.marked() == [])
+
+
+class OverwrittenBySimulation(Overwritten):
+    def start(self):
+        self.host = subprocess.Popen([BIN / "rung-run", self.program, self.home / "plc.map", "--name", "plc", "--simulate"],
+                                     stderr=self.log, env=self.environment, start_new_session=True)
+
+    def marked(self):
+        return [name for name in super().marked() if name != "ready"]
+
+    def test_by_the_simulation(self):
+        self.wait(lambda: "ready = false, overwritten" in self.ctl("map"))
+        self.assertTrue(self.get("F1.7"))
+
+
 class TopAsks(unittest.TestCase):
     """What top asks a host for, by one that only writes it down."""
     ANSWERS = {"status": {"host": "plc", "program": "mill", "dialect": "gsk", "scanned": True, "scans": 1, "missed": 0, "us": 0},

@@ -88,6 +88,7 @@ void PastSource::hear() {
     if (messages_.size() == kMostHeard) messages_.pop_front();
     messages_.push_back({past_->part(), messagesOf(past_->instance(), nc_->control())});
   }
+  if (isMachine()) checkTrigger(); // a recording that has ended was searched as a whole
   logLandmarks();
   for (; !later_.empty() && later_.front().scan <= past_->part(); later_.pop_front())
     log(std::move(later_.front().kind), std::move(later_.front().text), past_->part(), nowUs());

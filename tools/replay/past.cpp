@@ -329,8 +329,10 @@ uint64_t Past::partsPerScan() {
   TaskPeriods periods(part_);
   runtime::Instance& watched = stage().player().instance();
   watched.setTaskWatch(&periods);
-  (void)goTo(here);
+  while (part_ < here && next()) { // not from a kept moment
+  }
   watched.setTaskWatch(nullptr);
+  (void)goTo(here);
   scanParts_ = periods.longest();
   scanKnown_ = here;
   return scanParts_;

@@ -23,13 +23,13 @@ public:
   // appeared since then, and one that the operator cancels is not seen to go.
   explicit PastMessages(Past& past) : past_(past) {}
 
-  // To be called after each part in order: what has changed since the last call.
+  // One of these two is to be called after each part in order: the control that shows the messages; or what has changed
+  // since the last call.
+  const nc::Control& control();
   std::vector<PastMessage> changes();
   const std::vector<nc::ShownMessage>& shown() const { return shown_; }
 
 private:
-  const nc::Control& control();
-
   Past& past_;
   std::unique_ptr<nc::Control> own_; // sees what the program sends; null: not made yet
   uint32_t program_ = kNone;         // to which it is attached

@@ -42,6 +42,7 @@ PastSource::PastSource(replay::Past& past, std::shared_ptr<const ShownProgram> p
 void PastSource::show(replay::Past& past) {
   if (past_ != &past) views_.clear();
   past_ = &past;
+  hears_.emplace(past);
   heard_ = past.firstPart();
   nextLandmark_ = 0;
   messages_.clear();
@@ -83,10 +84,10 @@ void PastSource::logLandmarks() {
 }
 
 void PastSource::hear() {
-  for (const rung_message& message : past_->sent()) nc_->accept(past_->instance(), message);
-  if (compareMessages(past_->instance(), nc_->control(), past_->part())) {
+  const nc::Control& control = hears_->control();
+  if (compareMessages(past_->instance(), control, past_->part())) {
     if (messages_.size() == kMostHeard) messages_.pop_front();
-    messages_.push_back({past_->part(), messagesOf(past_->instance(), nc_->control())});
+    messages_.push_back({past_->part(), messagesOf(past_->instance(), control)});
   }
   if (isMachine()) checkTrigger(); // a recording that has ended was searched as a whole
   logLandmarks();

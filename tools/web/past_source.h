@@ -5,12 +5,14 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "tools/replay/past.h"
+#include "tools/replay/past_messages.h"
 #include "tools/replay/why.h"
 #include "tools/web/paced_source.h"
 
@@ -82,11 +84,12 @@ private:
 
   replay::Past* past_;
   const Draw draw_;
-  const std::unique_ptr<sim::SimulatedNc> nc_;      // for names, texts and messages; it drives nothing
+  const std::unique_ptr<sim::SimulatedNc> nc_;      // for names; it drives nothing
   std::map<uint32_t, std::unique_ptr<View>> views_; // by program of the recording
   uint32_t lastNumber_ = 1;                         // of a view
-  uint64_t heard_ = 0;                              // scans that have been listened to
-  uint64_t nextLandmark_ = 0;                       // counted with those that were dropped
+  std::optional<replay::PastMessages> hears_;
+  uint64_t heard_ = 0;        // scans that have been listened to
+  uint64_t nextLandmark_ = 0; // counted with those that were dropped
   std::deque<Heard> messages_;
   std::deque<Later> later_; // ascending
 };

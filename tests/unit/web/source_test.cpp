@@ -17,6 +17,7 @@
 #include "tools/replay/record_run.h"
 #include "tools/replay/session_past.h"
 #include "tools/scenario/compile_step.h"
+#include "tools/scenario/in_project.h"
 #include "tools/scenario/runner.h"
 #include "tools/scenario/statements.h"
 #include "tools/web/past_source.h"
@@ -250,6 +251,34 @@ TEST(Recorded, ForcesAndTriggers) {
   EXPECT_EQ(page.events("trigger").size(), 15u);
   EXPECT_EQ(page.picture().scan, 25u);
   EXPECT_EQ(source.mayWrite(), "a recording cannot be changed");
+}
+
+// The page begins before it has listened to the whole recording.
+TEST(Recorded, HasTheMessagesOfItsControl) {
+  for (const char* path : {"examples/fanuc-vmc/alarms.scn", "examples/gsk-mill/alarms.scn"}) {
+    SCOPED_TRACE(path);
+    auto scenario = scenario::readScenario(path);
+    ASSERT_TRUE(scenario.ok());
+    scenario::takeProject(scenario.value());
+    auto recorded = replay::recordScenario(scenario.value(), {.engines = {compiler::EngineKind::Interp}});
+    ASSERT_TRUE(recorded.ok()) << recorded.error();
+    auto past = replay::Past::open(recorded.value().recording, {.engine = compiler::EngineKind::Interp});
+    ASSERT_TRUE(past.ok()) << past.error();
+    const auto draw = [](const compiler::Compiled& program) {
+      return Result<ShownProgram>(ShownProgram(drawingOf(program)));
+    };
+    PastSource source(*past.value(), std::make_shared<const ShownProgram>(drawingOf(past.value()->compiled())), draw);
+    Running page(source);
+    const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+    while (page.events("gone").empty() && std::chrono::steady_clock::now() < until)
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    const std::vector<Event> messages = page.events("message");
+    ASSERT_FALSE(messages.empty());
+    page.order(Order::Kind::Seek, static_cast<int64_t>(messages[0].scan));
+    const std::vector<ShownMessage> shown = page.picture().messages;
+    ASSERT_FALSE(shown.empty());
+    EXPECT_NE(messages[0].text.find(shown[0].text), std::string::npos) << messages[0].text;
+  }
 }
 
 } // namespace

@@ -54,9 +54,9 @@ struct Compiled {
   std::unique_ptr<ir::Layout> layout;    // of `shape`, applied to `module`
   // If requested: of the module as built, and of `shape`, by rungs as built (Rung::origin). Not of an optimised module.
   ir::Marks marks;
-  ir::GivenNumbers given;                // of `built`, for a comparison
-  frontend::CompileOptions options;      // of the request
-  std::unique_ptr<ir::Uses> uses;        // of the module as built
+  ir::GivenNumbers given;           // of `built`, for a comparison
+  frontend::CompileOptions options; // of the request
+  std::unique_ptr<ir::Uses> uses;   // of the module as built
   // If requested, of the program as built, for its analysis only; the sources must outlive it.
   std::unique_ptr<const frontend::CheckedProgram> source;
   uint64_t codeHash = 0; // ir::hashOf(module)

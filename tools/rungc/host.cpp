@@ -32,7 +32,8 @@ void FollowedHost::refresh() {
   (void)followed.take();
 }
 
-Result<FollowedHost> followHost(const std::string& host, std::vector<std::shared_ptr<const compiler::Compiled>> known) try {
+Result<FollowedHost> followHost(const std::string& host,
+                                std::vector<std::shared_ptr<const compiler::Compiled>> known) try {
   FollowedHost to;
   to.client = std::make_unique<control::Client>(host);
   to.name = to.client->greeting().value("host", host);

@@ -21,6 +21,7 @@ struct FollowedHost {
 
 // `host`: a name as for rungctl; "": the only one that runs. `known`: programs that it may run, in addition to that
 // of its recording. The position is the newest scan. Fails if the host cannot be reached or records nothing.
-Result<FollowedHost> followHost(const std::string& host, std::vector<std::shared_ptr<const compiler::Compiled>> known = {});
+Result<FollowedHost> followHost(const std::string& host,
+                                std::vector<std::shared_ptr<const compiler::Compiled>> known = {});
 
 } // namespace rung::rungc

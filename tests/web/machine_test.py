@@ -48,13 +48,15 @@ RIGHTS = '[rungctl]\npermissions = ["set", "force", "reload", "stop", "start", "
 class Host:
     """rung-run with the program, in a folder of its own, until end()."""
 
-    def __init__(self, map=MAP + RIGHTS, words=("--retain", "kept")):
+    def __init__(self, map=MAP + RIGHTS, words=("--retain", "kept"), program=None):
         self.folder = tempfile.TemporaryDirectory()
         self.home = Path(self.folder.name)
         self.environment = {**os.environ, "RUNG_SOCKETS": str(self.home / "sockets")}
-        (self.home / "plc.map").write_text(map)
+        (self.home / "plc.map").write_text("" if program else map)
         self.words = words
-        self.build("mill.pmc", PROGRAM)
+        self.program = program or "mill.so"
+        if not program:
+            self.build("mill.pmc", PROGRAM)
         self.start()
 
     def build(self, name, text):
@@ -63,7 +65,7 @@ class Host:
 
     def start(self):
         with open(self.home / "log", "a") as log:
-            self.process = subprocess.Popen([BIN / "rung-run", "mill.so", "plc.map", "--name", "plc", *self.words], cwd=self.home,
+            self.process = subprocess.Popen([BIN / "rung-run", self.program, "plc.map", "--name", "plc", *self.words], cwd=self.home,
                                             stderr=log, env=self.environment, start_new_session=True)
         assert wait_until(lambda: self.ctl("status").returncode == 0), (self.home / "log").read_text()
 
@@ -265,6 +267,26 @@ class Machine(Following):
         later = self.until(lambda p: p["values"]["LAMP"] == "1", "LAMP")
         self.assertGreater(later["scan"], first["scan"])
         self.assertLess(later["revision"] - first["revision"], 6 * 33)
+
+
+class Slices(unittest.TestCase):
+    def test_a_picture_has_all_tasks(self):
+        """The rungs of a TECHNOL program run in one of twenty slices; each picture has them."""
+        host = Host(program=Path(__file__).resolve().parents[2] / "examples/technol-machining-centre", words=("--retain", "kept", "--simulate"))
+        self.addCleanup(host.end)
+        live = host.page().log_in()
+        self.addCleanup(live.close)
+        revision = 0
+
+        def next_picture():
+            nonlocal revision
+            picture = live.ask(f"picture?page=test&after={revision}&from=0&to=120")
+            revision = picture["revision"]
+            return picture if picture["scan"] > 100 else None
+        self.assertIsNotNone(wait_until(next_picture))
+        for _ in range(10):
+            picture = next_picture()
+            self.assertGreater(sum(1 for flow in picture["rows"].values() if flow), 20, picture["scan"])
 
 
 class WithoutRights(Following):

@@ -280,13 +280,14 @@ class Slices(unittest.TestCase):
 
         def next_picture():
             nonlocal revision
-            picture = live.ask(f"picture?page=test&after={revision}&from=0&to=120")
+            picture = live.ask(f"picture?page=test&after={revision}&from=100&to=220")
             revision = picture["revision"]
             return picture if picture["scan"] > 100 else None
         self.assertIsNotNone(wait_until(next_picture))
         for _ in range(10):
             picture = next_picture()
-            self.assertGreater(sum(1 for flow in picture["rows"].values() if flow), 20, picture["scan"])
+            ran = sum(1 for flow in picture["rows"].values() if flow and "-" not in flow)
+            self.assertGreater(ran, 20, picture["scan"])
 
 
 class WithoutRights(Following):

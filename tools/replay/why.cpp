@@ -177,7 +177,7 @@ private:
   }
 
   // The last part before `part`, or that part, after which the cell has another value than after the one before it, for
-  // each cell; nothing: none has been found. One pass for all.
+  // each cell; nothing: none has been found. If the program took over in between, its first part. One pass for all.
   std::vector<std::optional<uint64_t>> lastChanges(const std::vector<Cell>& cells, uint64_t part) {
     std::vector<std::optional<uint64_t>> changes(cells.size());
     uint64_t end = part, size = 64;
@@ -187,12 +187,22 @@ private:
       const uint64_t begin = end - first > size ? end - size : first;
       left -= std::min(left, end - begin);
       if (!past_.goTo(begin).empty()) break;
-      if (past_.programNumber() != programNumber_) break;
       std::vector<uint64_t> last(cells.size());
-      for (size_t i = 0; i < cells.size(); ++i) last[i] = valueIn(past_.instance().block(), cells[i]);
+      const auto read = [&] {
+        for (size_t i = 0; i < cells.size(); ++i) last[i] = valueIn(past_.instance().block(), cells[i]);
+      };
       std::vector<std::optional<uint64_t>> here(cells.size());
+      bool runs = past_.programNumber() == programNumber_, tookOver = !runs;
+      if (runs) read();
       while (past_.part() < end && past_.next()) {
-        if (past_.programNumber() != programNumber_) break;
+        const bool ran = std::exchange(runs, past_.programNumber() == programNumber_);
+        tookOver = tookOver || !runs;
+        if (!runs) continue;
+        if (!ran) { // the program takes over: nothing is followed further back
+          here.assign(cells.size(), past_.part());
+          read();
+          continue;
+        }
         for (size_t i = 0; i < cells.size(); ++i) {
           if (changes[i]) continue;
           const uint64_t now = valueIn(past_.instance().block(), cells[i]);
@@ -201,6 +211,7 @@ private:
       }
       for (size_t i = 0; i < cells.size(); ++i)
         if (!changes[i]) changes[i] = here[i];
+      if (tookOver) break;
       if (std::ranges::all_of(changes, [](const auto& change) { return change.has_value(); })) break;
       end = begin;
       size = std::min<uint64_t>(size * 4, 16384);
@@ -541,18 +552,29 @@ private:
     }
   }
 
-  // What led to a rung that does not always run: the last rung before it in the part that decides whether it does.
+  // What led to a rung that does not always run: the last rung before it in the part that decides whether it does; in a
+  // routine that has none, whether the routine is called.
   void addDecider(Operands& to, const PartFacts& facts, size_t runNumber) {
-    const std::vector<uint32_t> deciders = uses().decidersOf(facts.flow->runs()[runNumber].lowered);
+    const uint32_t led = facts.flow->runs()[runNumber].lowered;
+    if (addLast(to, facts, runNumber, uses().decidersOf(led))) return;
+    const std::vector<uint32_t> callers = uses().callersOf(led);
+    if (addLast(to, facts, runNumber, callers)) return;
+    for (size_t r = runNumber; r-- > 0;)
+      if (std::ranges::find(callers, facts.flow->runs()[r].lowered) != callers.end()) return addDecider(to, facts, r);
+  }
+
+  // Of the runs before this one, the last one of such a rung whose transfer has a condition with names.
+  bool addLast(Operands& to, const PartFacts& facts, size_t runNumber, const std::vector<uint32_t>& rungs) {
     for (size_t r = runNumber; r-- > 0;) {
       const uint32_t lowered = facts.flow->runs()[r].lowered;
-      if (std::ranges::find(deciders, lowered) == deciders.end() || facts.values[r].empty()) continue;
+      if (std::ranges::find(rungs, lowered) == rungs.end() || facts.values[r].empty()) continue;
       const ir::Transfer& transfer = past_.flowEngine().rung(lowered).transfer;
       const ir::ValueId value = transfer.cond.valid() ? transfer.cond : transfer.value;
       if (!value.valid()) continue;
       add(to, RungReasons(past_.flowEngine().rung(lowered), facts.values[r]).ofValue(value.index), facts, r);
-      if (to.hasNames()) return;
+      if (to.hasNames()) return true;
     }
+    return false;
   }
 
   void follow(Reason& reason, const std::vector<Leaf>& leaves, uint64_t part, const PartFacts& facts,

@@ -69,7 +69,7 @@ Reached reach(const std::string& host) {
     if (const int made = connected(path); made >= 0) return reachedBy(host, made);
     if (problem.empty()) problem = "cannot reach a host at " + path + ": " + std::strerror(errno);
   }
-  throw std::runtime_error(problem + "; is it running, and started by you?");
+  throw std::runtime_error(problem + "; does it run, under your user name?");
 }
 
 // Connects only once to each host: a separate check whether it runs would make it serve two connections.

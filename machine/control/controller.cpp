@@ -139,7 +139,9 @@ namespace {
 
 void checkRecorded(int32_t status) {
   if (status == RUNG_WRONG_STATE)
-    throw Refused("this host does not record its program; the mapping file says where: [recording] folder = \"PATH\"");
+    throw Refused(
+        "this host does not record its program; --retain FILE makes rung-run and rung_hal record, or [recording] "
+        "folder = \"PATH\" in the mapping file");
   check(status);
 }
 

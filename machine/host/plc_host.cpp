@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <filesystem>
 #include <iterator>
 #include <new>
 #include <optional>
@@ -45,9 +46,10 @@ int32_t readProfile(const rung_instance* plc, Command& command) noexcept {
 
 namespace {
 
+// From the root, as clients with other working directories read it.
 std::string recordingFolder(const RecordingSetting& setting, const std::string& retain) {
-  if (setting.off) return {};
-  return setting.folder.empty() && !retain.empty() ? retain + ".recording" : setting.folder;
+  if (setting.off || (setting.folder.empty() && retain.empty())) return {};
+  return std::filesystem::absolute(setting.folder.empty() ? retain + ".recording" : setting.folder).string();
 }
 
 } // namespace

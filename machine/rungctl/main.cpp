@@ -316,7 +316,7 @@ constexpr Row kCommands[] = {
        command.flag("-f,--follow", words.follow, "Keep printing new entries until Ctrl+C");
      },
      [](Client& client, const Words& words) { return log(client, words, gStop); }, logFile},
-    {"verify", "Say whether the machine runs this program: 0 yes, 1 no, with the rungs that differ, 2 unknown",
+    {"verify", "Say whether the machine runs this program, and which rungs differ",
      [](cli::Command& command, Words& words) {
        command.option("FILE", words.files, "Compiled program (.so), or source files in order, or a project folder")
            .required();
@@ -452,12 +452,13 @@ int main(int argc, char** argv) {
   action.sa_handler = [](int) { gStop = 1; };
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
-  cli::CommandLine app(
-      {.name = "rungctl",
-       .description = "Monitor and change a PLC program running in LinuxCNC or rung-run",
-       .exitStatus = "0 ok, 1 the host refuses or is not running, 2 wrong usage, 3 a file cannot be read or written",
-       .guide = "docs/rungctl.md",
-       .seeAlso = {"rung-run(1)", "rung_hal(9)", "rungc(1)"}});
+  cli::CommandLine app({.name = "rungctl",
+                        .description = "Monitor and change a PLC program running in LinuxCNC or rung-run",
+                        .exitStatus = "0 ok, 1 the host refuses or is not running, 2 wrong usage, 3 a file cannot be "
+                                      "read or written; of verify: 0 "
+                                      "the machine runs this program, 1 it does not, 2 unknown",
+                        .guide = "docs/rungctl.md",
+                        .seeAlso = {"rung-run(1)", "rung_hal(9)", "rungc(1)"}});
   int status = cli::kOk;
   Commands commands(app, status);
   commands.addHosts();

@@ -360,7 +360,7 @@ class Why(unittest.TestCase):
         text = self.host.done("why", "LAMP")
         self.assertRegex(text, r"LAMP \(Y0\.0\) = 1, since scan \d+, [\d.]+ s\n.*rung 2 \"lamp\", mill\.pmc:\d+")
         self.assertRegex(text, r"BUTTON \(X0\.0\) = 1, since scan \d+")
-        self.assertIn("written from outside", text)
+        self.assertIn("written by a person or another program", text)
         found = json.loads(self.host.done("why", "LAMP", "--json"))
         self.assertIn("LAMP", json.dumps(found))
 
@@ -376,7 +376,7 @@ class Why(unittest.TestCase):
         self.assertIn("NOTHING", unknown.stderr)
         late = self.host.ctl("why", "LAMP@99999999")
         self.assertEqual(late.returncode, 2)
-        self.assertIn("the recording has parts", late.stderr)
+        self.assertIn("the recording has scans", late.stderr)
         nobody = self.host.ctl("why", "LAMP", "--host", "nobody")
         self.assertEqual(nobody.returncode, 1)
 

@@ -314,14 +314,23 @@ private:
 
   // It has the value since the recording began: what writes it again and again says why, if anything does.
   Reason unchanged(const Cell& cell, uint64_t value, uint64_t part, const Within& moment) {
-    const PartFacts& facts = factsOf(part);
-    const std::optional<Within> again = lastWriteIn(facts, cell, moment);
-    Reason reason = again ? wrote(cell, value, part, facts, *again) : plain(cell, value, Reason::Kind::Before, part, 0);
+    uint64_t at = part;
+    std::optional<Within> again = lastWriteIn(factsOf(at), cell, moment);
+    for (const uint64_t first = scanBegin(part); !again && at > first;) again = lastWriteIn(factsOf(--at), cell, {});
+    Reason reason =
+        again ? wrote(cell, value, at, factsOf(at), *again) : plain(cell, value, Reason::Kind::Before, part, 0);
     reason.unchanged = true;
     reason.part = past_.firstPart();
     reason.us = timeOf(reason.part);
     if (reason.note.empty()) reason.note = heldSince(cell, reason.part, part);
     return reason;
+  }
+  // The first of the parts up to this one in which every task has had its turn: of a scan of several slices, or the
+  // part itself.
+  uint64_t scanBegin(uint64_t part) {
+    if (!past_.goTo(part).empty()) return part;
+    const uint64_t parts = past_.partsPerScan(), first = past_.firstPart() + 1;
+    return std::max(std::min(first, part), part + 1 - std::min(parts, part));
   }
   // The last one before the moment, also of the value that it had.
   static std::optional<Within> lastWriteIn(const PartFacts& facts, const Cell& cell, const Within& moment) {
@@ -377,7 +386,7 @@ private:
     for (const ForceChange& change : past_.contents().forces)
       if (change.part >= part && !until && heldOf(cell, change.bits).mask == 0) until = change.part;
     if (until && *until < asked_)
-      reason.note += fmt::format("{}the force was removed after scan {}, and nothing has written another value since",
+      reason.note += fmt::format("{}the force was removed after scan {}, and nothing has written another value",
                                  reason.note.empty() ? "" : "; ", *until);
     return reason;
   }
@@ -644,10 +653,14 @@ private:
   }
 
   void addSkipped(const Cell& cell, uint64_t part, Explanation& explanation) {
-    const PartFacts& facts = factsOf(part);
-    if (!facts.flow || cell.slot.valid()) return;
+    if (!factsOf(part).flow || cell.slot.valid()) return;
+    const uint64_t first = scanBegin(part);
     const auto ran = [&](uint32_t lowered) {
-      return std::ranges::any_of(facts.flow->runs(), [&](const RungFlow& run) { return run.lowered == lowered; });
+      for (uint64_t at = first; at <= part; ++at)
+        if (const PartFacts& facts = factsOf(at); facts.flow && facts.program == programNumber_)
+          for (const RungFlow& run : facts.flow->runs())
+            if (run.lowered == lowered) return true;
+      return false;
     };
     for (const uint32_t writer : uses().writersOf(cell.bits).certain) {
       if (ran(writer)) continue;

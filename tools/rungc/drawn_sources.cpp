@@ -1,11 +1,13 @@
 // See drawn_sources.h.
 #include "tools/rungc/drawn_sources.h"
 
+#include <filesystem>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <optional>
 #include <utility>
 
+#include "compiler/project.h"
 #include "ir/support/diag_render.h"
 #include "machine/compile/source_paths.h"
 #include "machine/rung-compile/collect.h"
@@ -25,7 +27,7 @@ Texts textsOf(const compile::Sources& from, const compiler::Compiled& program) {
   Texts texts{SourceManager(from.texts), {}, {}};
   for (const std::string& file : from.files) texts.files.push_back(texts.sources.addFile(file).value());
   texts.request.dialect = from.dialect;
-  texts.request.name = from.name;
+  texts.request.name = program.module->name; // the project's, or that of the folder it was built in
   texts.request.options.config = from.config;
   texts.request.options.includePaths = from.includePaths;
   texts.request.instrument = program.passes.instrument;
@@ -65,26 +67,43 @@ Result<web::ShownProgram> drawnAgain(const compiler::Compiled& compiled, const s
   return shown;
 }
 
+namespace {
+
+// Drawn from these files, if the program was built from them: as they are called here, or there. Nothing: it was not.
+std::optional<Result<web::ShownProgram>> drawnIfOf(const compiler::Compiled& program,
+                                                   const std::vector<std::string>& files, std::string& why) {
+  rung_compile::Collected collected = rung_compile::collect(files);
+  if (!collected.sources) {
+    why = collected.report;
+    return std::nullopt;
+  }
+  for (const bool renamed : {false, true}) {
+    if (renamed)
+      compile::rename(*collected.sources, compile::SourcePaths(program.module->files, collected.sources->files));
+    Texts texts = textsOf(*collected.sources, program);
+    const Result<bool> same = isOf(texts, program);
+    if (same.ok() && same.value()) return drawn(texts, *program.dialect);
+    why = same.ok() ? "" : same.error();
+  }
+  return std::nullopt;
+}
+
+} // namespace
+
 Result<web::ShownProgram> drawnFrom(const compiler::Compiled& program, const std::vector<std::string>& files) {
-  const std::vector<std::string>& names = files.empty() ? program.module->files : files;
-  const auto cannot = [&](const std::string& why) {
-    return failure(fmt::format("the program {} cannot be drawn: {}", program.module->name, why));
-  };
-  rung_compile::Collected collected = rung_compile::collect(names);
-  if (!collected.sources)
-    return cannot(collected.report + (files.empty() ? "; name its sources as they are here, or their project" : ""));
-  Texts asHere = textsOf(*collected.sources, program);
-  Result<bool> same = isOf(asHere, program);
-  if (same.ok() && same.value()) return drawn(asHere, *program.dialect);
-  compile::rename(*collected.sources, compile::SourcePaths(program.module->files, collected.sources->files));
-  Texts asThere = textsOf(*collected.sources, program);
-  same = isOf(asThere, program);
-  if (same.ok() && same.value()) return drawn(asThere, *program.dialect);
-  if (!same.ok()) return cannot(same.error());
-  return cannot(
-      fmt::format("it was built from another version of {}, or with other settings; `rungctl verify` lists the "
-                  "rungs that differ; name the sources from which it was built",
-                  fmt::join(names, ", ")));
+  const std::vector<std::string>& own = program.module->files;
+  std::vector<std::vector<std::string>> choices = {files.empty() ? own : files};
+  if (files.empty()) // their project has their configuration
+    if (const auto project = compiler::findUpwards(std::filesystem::path(own.front()).parent_path().string()))
+      choices.insert(choices.begin(), {*project});
+  std::string why;
+  for (const std::vector<std::string>& choice : choices)
+    if (auto shown = drawnIfOf(program, choice, why)) return std::move(*shown);
+  if (why.empty())
+    why =
+        fmt::format("it was built from another version of {}, or with other settings", fmt::join(choices.back(), ", "));
+  return failure(fmt::format("the program {} cannot be drawn: {}{}", program.module->name, why,
+                             files.empty() ? "; name its sources as they are here, or their project" : ""));
 }
 
 } // namespace rung::rungc

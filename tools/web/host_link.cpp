@@ -24,9 +24,8 @@ constexpr auto kConnectEvery = 500ms;
 std::string mayWriteOf(const json& map, const std::string& host) {
   for (const json& right : map.value("permissions", json::array()))
     if (right == "set" || right == "force" || right == "reload") return {};
-  return fmt::format("{} lets no client write; for it the mapping file needs [rungctl] permissions = "
-                     "[\"set\", \"force\"]",
-                     host);
+  return fmt::format(
+      "{} lets no client write; [rungctl] permissions = [\"set\", \"force\"] in its mapping file allows it", host);
 }
 
 std::string shown(const json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); }

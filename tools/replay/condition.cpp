@@ -212,7 +212,6 @@ std::string Condition::locate(const Locate& locate) {
   for (Operand& operand : operands_)
     if (!operand.name.empty())
       if (std::string problem = operand.locate(locate); !problem.empty()) return problem;
-  restart();
   return {};
 }
 
@@ -303,6 +302,7 @@ void search(Past& past, Condition& condition, const Condition::Locate& locate, u
   uint32_t program = past.programNumber();
   problem = condition.locate(locate);
   if (!problem.empty()) return;
+  condition.restart();
   bool held = condition.holds(memory());
   while (past.part() < to) {
     if (!past.next()) {

@@ -27,7 +27,8 @@ public:
   using Locate = std::function<Result<runtime::Ref>(std::string_view name)>;
 
   static Result<Condition> parse(std::string_view text, const Locate& locate);
-  // Looks the names up again, in another program. "" or which one it lacks.
+  // Looks the names up again, in another program, whose values are compared with those of the former one. "" or which
+  // one it lacks.
   std::string locate(const Locate& locate);
 
   // `memory` is of the program in which its names were looked up last. To be called after each part in order: rises,

@@ -445,7 +445,7 @@ Result<std::vector<std::string>> Console::exportTrace(const std::string& path, u
   if (names.empty()) names = scenario::defaultTraceNames(past_.instance().program(), past_.compiled().uses.get());
   if (std::string wrong = scenario::Trace::nameProblem(names, past_.instance(), *nc_); !wrong.empty())
     return failure(std::move(wrong));
-  auto trace = scenario::Trace::open(path, names, past_.instance(), *nc_);
+  auto trace = scenario::Trace::open(path, names, past_.instance(), *nc_, from);
   if (!trace.ok()) return trace.failure();
   const NotCompared notCompared(past_);
   uint32_t program = past_.programNumber();

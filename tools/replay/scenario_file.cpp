@@ -215,7 +215,7 @@ private:
         if (!isForced(instance, place) || !uses_.copiedFrom(report::bitsOf(place)).empty()) continue;
         const std::string& name = names_.of(place).name;
         if (!name.empty() && names_.of(place).place.kind == RefKind::Bit)
-          now.emplace(name, instance.memory().readBit(byte->space, byte->byte, bit));
+          now.emplace(name, (forced.value >> runtime::locate(instance.memory(), place).bit() & 1) != 0);
         else
           unnamed_.emplace(place.space, place.byte * 8 + place.bit);
       }

@@ -39,8 +39,7 @@ struct Within {
 };
 
 struct PartFacts {
-  uint32_t program = 0;
-  std::optional<Flow> flow;
+  std::optional<Flow> flow;                  // nothing: none, or another program's
   std::vector<std::vector<uint64_t>> values; // by run
   std::vector<uint8_t> before;               // memory; empty: it does not follow from before
   std::vector<core::ForcedBits> forced;
@@ -59,7 +58,8 @@ uint64_t maskOf(uint32_t bits) { return bits >= 64 ? ~uint64_t{0} : (uint64_t{1}
 class Inquiry {
 public:
   Inquiry(Past& past, const WhyOptions& options)
-      : past_(past), options_(options), programNumber_(past.programNumber()), asked_(past.part()) {}
+      : past_(past), options_(options), compiled_(past.compiled()), engine_(past.flowEngine()),
+        program_(past.instance().program()), programNumber_(past.programNumber()), asked_(past.part()) {}
 
   Explanation run(const runtime::Ref& place) {
     const uint64_t here = past_.part();
@@ -83,14 +83,14 @@ public:
         for (const Access& access : facts.flow->accesses(run))
           if (access.writes && touches(access, cell))
             lines.push_back(fmt::format("{}: {} = {}", runtime::rungText(program(), run.lowered, lineOf(access)),
-                                        nameOf({access.place, access.slot}), past_.flowEngine().shownValue(access)));
+                                        nameOf({access.place, access.slot}), engine_.shownValue(access)));
     (void)past_.goTo(here);
     return lines;
   }
 
 private:
-  const rung_program& program() { return past_.instance().program(); }
-  const ir::Uses& uses() const { return *past_.compiled().uses; }
+  const rung_program& program() const { return program_; }
+  const ir::Uses& uses() const { return *compiled_.uses; }
 
   // ---- cells ----
 
@@ -101,8 +101,8 @@ private:
 
   uint64_t valueIn(std::span<const uint8_t> block, const Cell& cell) {
     if (cell.slot.valid()) {
-      const ir::Slot& slot = past_.compiled().shape->slots[cell.slot.index];
-      const uint32_t at = past_.compiled().layout->memory().slot(cell.slot);
+      const ir::Slot& slot = compiled_.shape->slots[cell.slot.index];
+      const uint32_t at = compiled_.layout->memory().slot(cell.slot);
       uint64_t value = 0;
       for (uint32_t i = 0; i < std::max(1u, ir::byteWidth(slot.type)); ++i) value |= uint64_t{block[at + i]} << (8 * i);
       return value;
@@ -144,17 +144,17 @@ private:
     if (const std::optional<BitRange> bits = known(cell)) return report::shownName(program(), refOf(*bits, cell.real));
     if (!cell.slot.valid()) return "memory of its own";
     // The key of a slot is of the compiler; the part after the last slash says what it is for.
-    const std::string& key = past_.compiled().shape->slots[cell.slot.index].key;
+    const std::string& key = compiled_.shape->slots[cell.slot.index].key;
     return fmt::format("its own state {}", key);
   }
   std::string shown(uint64_t value, const Cell& cell) {
     if (cell.real) return scenario::show(scenario::realReading(std::bit_cast<double>(value)));
     const uint32_t width =
-        cell.slot.valid() ? ir::bitWidth(past_.compiled().shape->slots[cell.slot.index].type) : cell.bits.count;
+        cell.slot.valid() ? ir::bitWidth(compiled_.shape->slots[cell.slot.index].type) : cell.bits.count;
     return scenario::show({.kind = scenario::ValueKind::Int, .integer = value, .width = width});
   }
   bool isTransient(const Cell& cell) const {
-    return cell.slot.valid() && past_.compiled().shape->slots[cell.slot.index].transient;
+    return cell.slot.valid() && compiled_.shape->slots[cell.slot.index].transient;
   }
 
   // ---- parts ----
@@ -163,17 +163,20 @@ private:
     if (const auto found = facts_.find(part); found != facts_.end()) return *found->second;
     auto facts = std::make_unique<PartFacts>();
     (void)past_.goTo(part);
-    const Flow* flow = past_.flow(
-        [&](size_t, std::span<const uint64_t> values) { facts->values.emplace_back(values.begin(), values.end()); });
-    if (flow != nullptr) facts->flow = *flow;
-    const std::span<const uint8_t> before = past_.blockBefore();
-    facts->before.assign(before.begin(), before.end());
-    facts->program = past_.programNumber();
     facts->us = past_.instance().nowUs();
-    const std::span<const core::ForcedBits> forced = past_.instance().forcedBits();
-    facts->forced.assign(forced.begin(), forced.end());
-    facts->outside.assign(past_.outsideWrites().begin(), past_.outsideWrites().end());
+    if (past_.programNumber() == programNumber_) fill(*facts);
     return *facts_.emplace(part, std::move(facts)).first->second;
+  }
+
+  void fill(PartFacts& facts) {
+    const Flow* flow = past_.flow(
+        [&](size_t, std::span<const uint64_t> values) { facts.values.emplace_back(values.begin(), values.end()); });
+    if (flow != nullptr) facts.flow = *flow;
+    const std::span<const uint8_t> before = past_.blockBefore();
+    facts.before.assign(before.begin(), before.end());
+    const std::span<const core::ForcedBits> forced = past_.instance().forcedBits();
+    facts.forced.assign(forced.begin(), forced.end());
+    facts.outside.assign(past_.outsideWrites().begin(), past_.outsideWrites().end());
   }
 
   // The last part before `part`, or that part, after which the cell has another value than after the one before it, for
@@ -234,7 +237,7 @@ private:
   // The byte of the block and the bit in it; nothing: it does not have one of its own.
   std::optional<std::pair<uint32_t, uint32_t>> blockBit(const Cell& cell, uint32_t i) {
     const uint32_t bit = cell.bits.first + i;
-    const core::Place at = past_.instance().memory().locateBit(cell.bits.space.index, bit / 8, bit % 8);
+    const core::Place at = core::Memory(program_, nullptr).locateBit(cell.bits.space.index, bit / 8, bit % 8);
     if (at.outside() || at.apart()) return std::nullopt;
     return std::pair(at.offset(), at.bit());
   }
@@ -469,7 +472,7 @@ private:
   }
 
   uint32_t lineOf(const Access& access) {
-    const ir::Rung& rung = past_.flowEngine().rung(access.rung);
+    const ir::Rung& rung = engine_.rung(access.rung);
     return ir::lineOf(rung, rung.ops[access.operation]);
   }
 
@@ -478,12 +481,12 @@ private:
     const RungFlow& run = facts.flow->runs()[write.run];
     const std::span<const Access> accesses = facts.flow->accesses(run);
     const Access& access = accesses[write.access];
-    const ir::Rung& rung = past_.flowEngine().rung(run.lowered);
+    const ir::Rung& rung = engine_.rung(run.lowered);
     const ir::Op& op = rung.ops[access.operation];
     reason.lowered = run.lowered;
     reason.line = ir::lineOf(rung, op);
     reason.rung = runtime::rungText(program(), run.lowered, reason.line);
-    if (rung.begin.file.valid()) reason.file = past_.compiled().shape->files[rung.begin.file.index];
+    if (rung.begin.file.valid()) reason.file = compiled_.shape->files[rung.begin.file.index];
     reason.computed = op.code == ir::OpCode::StoreAt || op.code == ir::OpCode::StoreBitAt;
     if (run.faulted || facts.values[write.run].empty()) return reason;
     const RungReasons reasons(rung, facts.values[write.run]);
@@ -501,7 +504,7 @@ private:
     const PartFacts& facts = factsOf(part);
     if (!write || facts.values[write->run].empty()) return;
     const RungFlow& run = facts.flow->runs()[write->run];
-    const ir::Rung& rung = past_.flowEngine().rung(run.lowered);
+    const ir::Rung& rung = engine_.rung(run.lowered);
     const RungReasons reasons(rung, facts.values[write->run]);
     for (const Leaf& leaf : reasons.toChange(facts.flow->accesses(run)[write->access].operation)) {
       const auto [read, value] = cellOf(leaf, rung, facts, run);
@@ -544,7 +547,7 @@ private:
   // What the author named comes before what the rung keeps for itself, and that before state of the compiler.
   void add(Operands& to, const std::vector<Leaf>& leaves, const PartFacts& facts, size_t runNumber) {
     const RungFlow& run = facts.flow->runs()[runNumber];
-    const ir::Rung& rung = past_.flowEngine().rung(run.lowered);
+    const ir::Rung& rung = engine_.rung(run.lowered);
     for (const Leaf& leaf : leaves) {
       const ir::OpCode code = rung.ops[leaf.operation].code;
       size_t number = 0;
@@ -577,10 +580,10 @@ private:
     for (size_t r = runNumber; r-- > 0;) {
       const uint32_t lowered = facts.flow->runs()[r].lowered;
       if (std::ranges::find(rungs, lowered) == rungs.end() || facts.values[r].empty()) continue;
-      const ir::Transfer& transfer = past_.flowEngine().rung(lowered).transfer;
+      const ir::Transfer& transfer = engine_.rung(lowered).transfer;
       const ir::ValueId value = transfer.cond.valid() ? transfer.cond : transfer.value;
       if (!value.valid()) continue;
-      add(to, RungReasons(past_.flowEngine().rung(lowered), facts.values[r]).ofValue(value.index), facts, r);
+      add(to, RungReasons(engine_.rung(lowered), facts.values[r]).ofValue(value.index), facts, r);
       if (to.hasNames()) return true;
     }
     return false;
@@ -643,7 +646,7 @@ private:
   // Where the compiler keeps the time of a task for all its timers.
   bool isClock(const Cell& cell) const {
     if (!cell.slot.valid()) return false;
-    const std::string& key = past_.compiled().shape->slots[cell.slot.index].key;
+    const std::string& key = compiled_.shape->slots[cell.slot.index].key;
     return key.starts_with("@clock/") || key.starts_with("@scan/");
   }
 
@@ -657,7 +660,7 @@ private:
     const uint64_t first = scanBegin(part);
     const auto ran = [&](uint32_t lowered) {
       for (uint64_t at = first; at <= part; ++at)
-        if (const PartFacts& facts = factsOf(at); facts.flow && facts.program == programNumber_)
+        if (const PartFacts& facts = factsOf(at); facts.flow)
           for (const RungFlow& run : facts.flow->runs())
             if (run.lowered == lowered) return true;
       return false;
@@ -676,6 +679,10 @@ private:
 
   Past& past_;
   const WhyOptions& options_;
+  // Of the program of the question, also while other parts are visited.
+  const compiler::Compiled& compiled_;
+  FlowEngine& engine_;
+  const rung_program& program_;
   const uint32_t programNumber_; // changes of the program end the search
   const uint64_t asked_;         // the part of the question
   std::map<uint64_t, std::unique_ptr<PartFacts>> facts_;

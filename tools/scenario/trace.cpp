@@ -74,7 +74,8 @@ std::string Trace::nameProblem(const std::vector<std::string>& names, const runt
 }
 
 Result<std::unique_ptr<Trace>> Trace::open(const std::string& path, const std::vector<std::string>& names,
-                                           const runtime::Instance& instance, const sim::SimulatedNc& nc) {
+                                           const runtime::Instance& instance, const sim::SimulatedNc& nc,
+                                           uint64_t scan) {
   const rung_program& program = instance.program();
   std::vector<Source> sources;
   std::vector<runtime::TracedName> traced;
@@ -90,7 +91,7 @@ Result<std::unique_ptr<Trace>> Trace::open(const std::string& path, const std::v
   if (!trace->out_) return failure(fmt::format("cannot write '{}'", path));
   trace->sources_ = std::move(sources);
   trace->writer_->begin(program.name, traced);
-  trace->sample(instance, nc, 0);
+  trace->sample(instance, nc, scan);
   return trace;
 }
 

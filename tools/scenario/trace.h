@@ -51,7 +51,8 @@ public:
                                  const sim::SimulatedNc& nc);
   // Begins the file with the current values. nameProblem() must have returned "" for the names.
   static Result<std::unique_ptr<Trace>> open(const std::string& path, const std::vector<std::string>& names,
-                                             const runtime::Instance& instance, const sim::SimulatedNc& nc);
+                                             const runtime::Instance& instance, const sim::SimulatedNc& nc,
+                                             uint64_t scan = 0);
 
   void scanned(const Session& session) override { sample(session.instance(), session.nc(), session.scans()); }
   // Names that the new program does not have, or has with another kind of value, have no values from now on.

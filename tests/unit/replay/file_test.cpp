@@ -346,5 +346,63 @@ TEST(HostRecording, SaysThatAReplacementWasPreparedBefore) {
   EXPECT_EQ(differencesOf(*past), "");
 }
 
+// A program that takes over and one that comes back: each has its own rungs.
+TEST(HostRecording, IsExplainedAcrossChangesOfProgram) {
+  const TemporaryFolder folder;
+  std::string text = RecordedHost::kProgram;
+  text.replace(text.find("; lamp"), 0, "; other\nLD GO\nOUT R9.0\n");
+  text.replace(text.find("ANI R0.0"), 8, "ANI R0.1");
+  HostProgram first(RecordedHost::kProgram), second(text.c_str());
+  const rung::Image image = rung::Image::adopt(first.engine->program(), first.engine->context());
+  const rung::Image other = rung::Image::adopt(second.engine->program(), second.engine->context());
+  rung::Instance instance(image);
+  const std::string path = folder / "recording";
+  const rung_recording_options options{.size = sizeof options, .state_ms = 2000, .folder = path.c_str()};
+  ASSERT_EQ(rung_instance_record(instance.handle(), &options), RUNG_OK) << rung_error_text();
+  uint8_t go = 1;
+  instance.bindInput("GO", go);
+  instance.powerOn(rung::Power::Cold);
+  const auto scans = [&](int count) {
+    for (int i = 0; i < count; ++i) EXPECT_EQ(instance.scan(), RUNG_OK);
+  };
+  const auto replaceBy = [&](const rung::Image& by) {
+    rung_replacement* replacement = nullptr;
+    ASSERT_EQ(rung_replacement_new(instance.handle(), by.handle(), nullptr, 0, &replacement), RUNG_OK)
+        << rung_error_text();
+    ASSERT_EQ(rung_instance_replace(instance.handle(), replacement), RUNG_OK) << rung_error_text();
+    EXPECT_EQ(rung_replacement_free(replacement), RUNG_OK);
+  };
+  scans(100);
+  replaceBy(other);
+  scans(20);
+  go = 0;
+  scans(20);
+  replaceBy(image);
+  scans(10);
+  go = 1;
+  scans(10);
+  EXPECT_EQ(rung_instance_record(instance.handle(), nullptr), RUNG_OK);
+  const Result<Recording> recording = readRecording(path, {first.compiled, second.compiled});
+  ASSERT_TRUE(recording.ok()) << recording.error();
+  const auto past = open(recording.value());
+  Console console(*past, [](const std::string&) {});
+  const auto why = [&](const char* words) {
+    const std::string asked[] = {words};
+    const Result<std::string> text = console.why(asked, false);
+    return text.ok() ? text.value() : text.error();
+  };
+  EXPECT_THAT(why("LAMP @ 90"), AllOf(HasSubstr("LAMP (Y0.0) = 1"), HasSubstr("written by rung 1 ")));
+  EXPECT_THAT(why("LAMP @ 110"), AllOf(HasSubstr("LAMP (Y0.0) = 1, since scan 101"), HasSubstr("written by rung 2 ")));
+  EXPECT_THAT(why("LAMP @ 130"),
+              AllOf(HasSubstr("LAMP (Y0.0) = 0, since scan 121"), HasSubstr("GO (X0.0) = 0, since scan 121")));
+  EXPECT_THAT(why("LAMP @ 145"), AllOf(HasSubstr("LAMP (Y0.0) = 0, since scan 141"), HasSubstr("written by rung 1 ")));
+  EXPECT_THAT(why("LAMP @ 160"),
+              AllOf(HasSubstr("LAMP (Y0.0) = 1, since scan 151"), HasSubstr("GO (X0.0) = 1, since scan 151")));
+  for (uint64_t part = past->firstPart() + 1; part <= past->contents().parts; ++part)
+    for (const char* name : {"LAMP", "LATE", "D100"})
+      EXPECT_THAT(why((std::string(name) + " @ " + std::to_string(part)).c_str()), testing::StartsWith(name));
+  EXPECT_EQ(differencesOf(*past), "");
+}
+
 } // namespace
 } // namespace rung::replay

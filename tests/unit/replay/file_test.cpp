@@ -399,7 +399,7 @@ TEST(HostRecording, IsExplainedAcrossChangesOfProgram) {
   EXPECT_THAT(why("LAMP @ 160"),
               AllOf(HasSubstr("LAMP (Y0.0) = 1, since scan 151"), HasSubstr("GO (X0.0) = 1, since scan 151")));
   for (uint64_t part = past->firstPart() + 1; part <= past->contents().parts; ++part)
-    for (const char* name : {"LAMP", "LATE", "D100"})
+    for (const char* name : {"LAMP", "LATE", "COUNT"})
       EXPECT_THAT(why((std::string(name) + " @ " + std::to_string(part)).c_str()), testing::StartsWith(name));
   EXPECT_EQ(differencesOf(*past), "");
 }

@@ -266,9 +266,10 @@ std::string rangeProblem(const Past& past, uint64_t from, uint64_t to) {
     case Landmark::Kind::Start:
       starts = starts || landmark.part == from;
       if (!within) break;
-      return fmt::format("after scan {0} the program was started again, or another state loaded: a scenario ends "
-                         "there (--to {0}), and another one begins there (--from {0})",
-                         landmark.part);
+      return fmt::format(
+          "after scan {0} the program was started again, or another state loaded: a scenario ends "
+          "there (--to {0}), and another one begins there (--from {0}), unless another program took over",
+          landmark.part);
     case Landmark::Kind::Lost:
     case Landmark::Kind::Damaged:
       if (within)
@@ -341,6 +342,10 @@ Result<ScenarioText> scenarioOf(Past& past, const std::string& path, uint64_t fr
   while (past.part() < to && past.next() && past.programNumber() == program) inputs.count(past.instance());
   past.watch(nullptr);
   inputs.finish();
+  if (past.programNumber() != program && past.part() == from + 1)
+    return failure(fmt::format("after scan {} another program took over, with the state of the former one: a scenario "
+                               "begins with power-on, so what this program does cannot be one",
+                               from));
   if (past.programNumber() != program)
     return failure(
         fmt::format("after scan {0} another program takes over: a scenario ends there (--to {0})", past.part() - 1));

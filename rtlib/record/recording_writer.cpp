@@ -235,7 +235,7 @@ void RecordingWriter::takeMarks() {
     const size_t room = pending_.size() + text.size() + 16;
     const size_t before = pending_.size();
     pending_.resize(room);
-    EventWriter writer(std::span(pending_).subspan(before));
+    EventWriter writer{std::span(pending_).subspan(before)};
     writer.put(Event::Mark, text.size());
     writer.putBytes({reinterpret_cast<const uint8_t*>(text.data()), text.size()});
     pending_.resize(before + writer.size());

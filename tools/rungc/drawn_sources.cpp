@@ -21,10 +21,11 @@ struct Texts {
   SourceManager sources;
   std::vector<FileId> files;
   compiler::CompileRequest request;
+  std::string title; // of the drawing; "": the names of the files
 };
 
 Texts textsOf(const compile::Sources& from, const compiler::Compiled& program) {
-  Texts texts{SourceManager(from.texts), {}, {}};
+  Texts texts{SourceManager(from.texts), {}, {}, from.name};
   for (const std::string& file : from.files) texts.files.push_back(texts.sources.addFile(file).value());
   texts.request.dialect = from.dialect;
   texts.request.name = program.module->name; // the project's, or that of the folder it was built in
@@ -47,7 +48,7 @@ Result<web::ShownProgram> drawn(Texts& texts, const frontend::Dialect& dialect) 
   Diagnostics diagnostics;
   auto drawing = view::drawnProgram(texts.sources, texts.files, dialect, texts.request.options, diagnostics);
   if (!drawing) return failure(renderText(diagnostics, texts.sources));
-  if (!texts.request.name.empty()) drawing->title = texts.request.name;
+  if (!texts.title.empty()) drawing->title = texts.title;
   return web::ShownProgram(std::move(*drawing));
 }
 
@@ -59,7 +60,7 @@ Result<web::ShownProgram> drawnAgain(const compiler::Compiled& compiled, const s
       compiler::addFiles(texts.sources, compiled.module->files, compiled.options.config);
   if (!files.ok()) return files.failure();
   texts.files = std::move(files).value();
-  texts.request.name = title;
+  texts.title = title;
   texts.request.options = compiled.options;
   texts.request.options.configPlaces.clear(); // they are positions in the sources of the first compilation
   Result<web::ShownProgram> shown = drawn(texts, *compiled.dialect);

@@ -146,7 +146,7 @@ class Machine(Following):
         self.assertEqual(on["rows"][lamp], "233")
         why = self.live.ask("why?name=LAMP")
         self.assertEqual([step[1].split(":")[0] for step in why["steps"]][:3], ["LAMP (Y0.0) = 1", "HELD (R0.0) = 1", "BUTTON (X0.0) = 1"])
-        self.assertIn("from outside", why["steps"][-1][1])
+        self.assertIn("through the host", why["steps"][-1][1])
 
     def test_goes_back_while_the_machine_runs(self):
         self.host.done("set", "BUTTON", "on")

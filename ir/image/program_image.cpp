@@ -26,11 +26,13 @@ public:
       : tables_(tables), layout_(layout), module_(layout.module()) {}
 
   void run() {
+    const Places places = reachedPlaces();
+    const std::vector<uint32_t> rungs = firstRungsOfSlots();
     addSpaces();
-    addSymbols();
-    addSlots();
+    addSymbols(places);
+    addSlots(rungs);
     addContinuations();
-    addTimers();
+    addTimers(rungs, places);
     addInits();
     addSpans(module_.retains, tables_.retains);
     addSpans(module_.safeSpans, tables_.safeSpans);
@@ -73,8 +75,7 @@ private:
     return places;
   }
 
-  void addSymbols() {
-    const Places places = reachedPlaces();
+  void addSymbols(const Places& places) {
     for (const Symbol& s : module_.symbols) {
       const bool hasPlace = s.space.valid();
       const Reached reached = hasPlace ? places.at({s.space.index, s.byte}) : Reached{};
@@ -101,8 +102,7 @@ private:
     return first;
   }
 
-  void addSlots() {
-    const std::vector<uint32_t> rungs = firstRungsOfSlots();
+  void addSlots(const std::vector<uint32_t>& rungs) {
     for (uint32_t i = 0; i < module_.slots.size(); ++i) {
       const Slot& slot = module_.slots[i];
       if (!slot.transient)
@@ -130,9 +130,7 @@ private:
     return {abiType(cell.type), cell.space.index, cell.byte};
   }
 
-  void addTimers() {
-    const std::vector<uint32_t> rungs = firstRungsOfSlots();
-    const Places places = reachedPlaces();
+  void addTimers(const std::vector<uint32_t>& rungs, const Places& places) {
     for (const Timer& timer : module_.timers) {
       const std::vector<uint32_t>& units = tables_.units.emplace_back(timer.unitsUs);
       rung_timer out{.name = tables_.text(timer.name),

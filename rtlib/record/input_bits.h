@@ -32,8 +32,6 @@ public:
     reader = after;
     return true;
   }
-  // The maximum number of bytes that `compare` can find changed.
-  size_t bytes() const noexcept { return kPiece * kStep * steps_.size(); }
 
   // ---- scan thread; nothing here allocates ----
 

@@ -2,7 +2,6 @@
 #include "rtlib/record/watched_bytes.h"
 
 #include <algorithm>
-#include <bit>
 #include <span>
 #include <utility>
 
@@ -67,7 +66,7 @@ std::optional<WatchedBytes> WatchedBytes::fromList(const rung_program& program, 
     const uint32_t size = reader.takeNumber32();
     end = offset + size;
     if (!reader.good() || size == 0 || end > bytes.size()) return std::nullopt;
-    std::fill_n(bytes.begin() + static_cast<ptrdiff_t>(offset), size, true);
+    mark(bytes, offset, size);
   }
   return reader.good() ? std::optional<WatchedBytes>(std::in_place, program, bytes) : std::nullopt;
 }

@@ -484,6 +484,15 @@ class Charts(unittest.TestCase):
             live.close()
 
 
+def seen_in_frames(page, look):
+    """The values that an expression of JavaScript has had in 400 frames; on(selector) is the state of an element."""
+    return page.driver.execute_async_script("""
+        const done = arguments[0], seen = new Set(), on = selector => document.querySelector(selector).dataset.on;
+        let left = 400;
+        const look = () => { seen.add(""" + look + """); if (--left) requestAnimationFrame(look); else done([...seen].sort()); };
+        look();""")
+
+
 class Alternating(unittest.TestCase):
     def test_one_scan_at_a_time(self):
         """X alternates; two rungs read X and not X, and no picture has them both on, or both off."""
@@ -492,16 +501,7 @@ class Alternating(unittest.TestCase):
         try:
             page.open(live.link)
             page.until("return document.querySelectorAll('article').length === 3", "rungs")
-            seen = page.driver.execute_async_script("""
-                const done = arguments[0], seen = new Set();
-                let left = 400;
-                const on = name => document.querySelector(`.o[data-name=${name}]`).dataset.on;
-                const look = () => {
-                  seen.add(on('SAME') + on('OTHER') + document.querySelector('#r2 [data-name=X]').dataset.on +
-                           document.querySelector('#r3 [data-name=X]').dataset.on);
-                  if (--left) requestAnimationFrame(look); else done([...seen].sort());
-                };
-                look();""")
+            seen = seen_in_frames(page, "on('.o[data-name=SAME]') + on('.o[data-name=OTHER]') + on('#r2 [data-name=X]') + on('#r3 [data-name=X]')")
             self.assertEqual(seen, ["0101", "1010"])
         finally:
             page.close()
@@ -514,15 +514,7 @@ class Alternating(unittest.TestCase):
         try:
             page.open(live.link)
             page.until("return document.querySelectorAll('article').length === 5", "rungs")
-            seen = page.driver.execute_async_script("""
-                const done = arguments[0], seen = new Set();
-                let left = 400;
-                const on = (rung, name) => document.querySelector(`#r${rung} [data-name=${name}]`).dataset.on;
-                const look = () => {
-                  seen.add(on(3, 'X') + on(3, 'FIRST') + on(5, 'X') + on(5, 'SECOND'));
-                  if (--left) requestAnimationFrame(look); else done([...seen].sort());
-                };
-                look();""")
+            seen = seen_in_frames(page, "on('#r3 [data-name=X]') + on('#r3 [data-name=FIRST]') + on('#r5 [data-name=X]') + on('#r5 [data-name=SECOND]')")
             self.assertEqual(seen, ["0011", "1100"])
         finally:
             page.close()

@@ -24,9 +24,9 @@ GrowingRecording::open(const std::string& path, const RecordingLimits& limits,
   if (!reader) return failure(problem);
   std::unique_ptr<GrowingRecording> made(new GrowingRecording(std::move(*reader), limits, std::move(known)));
   made->recording_.problems = made->reader_.problems();
-  const std::vector<runtime::SegmentFile> files = made->filesInOrder();
+  const std::vector<Headed> files = made->filesInOrder();
   for (size_t i = made->firstOf(files); i < files.size(); ++i) {
-    made->openFile(files[i]);
+    made->openFile(files[i].file);
     (void)made->readBlocks();
   }
   const Recording& recording = made->recording_;
@@ -36,11 +36,7 @@ GrowingRecording::open(const std::string& path, const RecordingLimits& limits,
 }
 
 // The files, in the order in which they were written, whatever they are called now.
-std::vector<runtime::SegmentFile> GrowingRecording::filesInOrder() {
-  struct Headed {
-    runtime::SegmentFile file;
-    runtime::SegmentHead head;
-  };
+std::vector<GrowingRecording::Headed> GrowingRecording::filesInOrder() {
   std::vector<Headed> files;
   std::string problem;
   for (const runtime::SegmentFile& file : reader_.segments()) {
@@ -56,24 +52,17 @@ std::vector<runtime::SegmentFile> GrowingRecording::filesInOrder() {
     return same;
   };
   files.erase(std::unique(files.begin(), files.end(), isSame), files.end());
-  std::vector<runtime::SegmentFile> ordered;
-  for (Headed& one : files) ordered.push_back(std::move(one.file));
-  return ordered;
+  return files;
 }
 
 // Of the newest files, as many as the limits allow.
-size_t GrowingRecording::firstOf(const std::vector<runtime::SegmentFile>& files) const {
+size_t GrowingRecording::firstOf(const std::vector<Headed>& files) const {
   if (files.empty()) return 0;
   size_t first = files.size() - 1;
-  std::string problem;
-  const auto beganUs = [&](size_t file) {
-    const auto head = runtime::readSegmentHead(reader_.pathOf(files[file]), problem);
-    return head ? head->wallUs : 0;
-  };
-  const int64_t newest = beganUs(first);
-  uint64_t bytes = files[first].bytes;
-  while (first != 0 && newest - beganUs(first) < limits_.us &&
-         (bytes += files[first - 1].bytes) < limits_.bytes / kPacked)
+  const int64_t newest = files[first].head.wallUs;
+  uint64_t bytes = files[first].file.bytes;
+  while (first != 0 && newest - files[first].head.wallUs < limits_.us &&
+         (bytes += files[first - 1].file.bytes) < limits_.bytes / kPacked)
     --first;
   return first;
 }
@@ -193,8 +182,7 @@ void GrowingRecording::append(const runtime::RecordedBlock& block) {
 void GrowingRecording::endFile() {
   if (file_ && !file_->ended() && file_->rest() != 0) {
     if (begins_) recording_.segments.emplace_back(); // it has no whole block
-    recording_.segments.back().damage =
-        fmt::format("{} ends with {} bytes of a block that was cut off", file_->path(), file_->rest());
+    missing(fmt::format("{} ends with {} bytes of a block that was cut off", file_->path(), file_->rest()));
   }
   file_.reset();
 }

@@ -49,8 +49,12 @@ private:
                    std::vector<std::shared_ptr<const compiler::Compiled>> known)
       : reader_(std::move(reader)), limits_(limits), known_(std::move(known)) {}
 
-  std::vector<runtime::SegmentFile> filesInOrder();
-  size_t firstOf(const std::vector<runtime::SegmentFile>& files) const;
+  struct Headed {
+    runtime::SegmentFile file;
+    runtime::SegmentHead head;
+  };
+  std::vector<Headed> filesInOrder();
+  size_t firstOf(const std::vector<Headed>& files) const;
   bool nextFiles();
   void openFile(const runtime::SegmentFile& file);
   void missing(std::string what);

@@ -275,7 +275,7 @@ std::string Past::goTo(uint64_t aim) {
   return {};
 }
 
-// Within a scan of several slices there is no state to be kept.
+// The state is that between two scans: within one of several slices it cannot be saved.
 void Past::keepAfter(uint64_t& part) {
   if (part_ < part || !instance().atListStart()) return;
   keep();

@@ -89,6 +89,7 @@ public:
   std::span<const rung_message> sent() const { return sent_; }
   // Whether what the program does is compared with what was recorded, as it is at first: playing is faster without it.
   void compare(bool compares);
+  bool compares() const { return compares_; }
   // Those found so far where it has been played; the first ones.
   const std::vector<Difference>& differences() const { return differences_; }
 
@@ -151,13 +152,14 @@ private:
 // What differs is of no interest, as long as this lives.
 class NotCompared {
 public:
-  explicit NotCompared(Past& past) : past_(past) { past_.compare(false); }
-  ~NotCompared() { past_.compare(true); }
+  explicit NotCompared(Past& past) : past_(past), before_(past.compares()) { past_.compare(false); }
+  ~NotCompared() { past_.compare(before_); }
   NotCompared(const NotCompared&) = delete;
   NotCompared& operator=(const NotCompared&) = delete;
 
 private:
   Past& past_;
+  bool before_;
 };
 
 // "scan 12, 0.120 s": parts and time as the prompt of `rungc run` counts them.

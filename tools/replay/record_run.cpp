@@ -73,7 +73,7 @@ void SessionRecorder::flush() {
 }
 
 void SessionRecorder::setPaused(bool paused) {
-  paused_ = paused;
+  if (paused == std::exchange(paused_, paused)) return;
   instance_->setOutsideWatch(paused ? nullptr : recorder_.get());
 }
 

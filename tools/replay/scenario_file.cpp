@@ -257,7 +257,7 @@ void putProgram(const Past& past, const std::string& path, std::string& text) {
   text += "\n";
 }
 
-// "" or why there is no scenario of these parts.
+// "" or why these parts cannot be a scenario.
 std::string rangeProblem(const Past& past, uint64_t from, uint64_t to) {
   bool starts = from == past.firstPart();
   for (const Landmark& landmark : past.contents().landmarks) {

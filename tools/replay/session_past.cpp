@@ -29,11 +29,6 @@ void SessionPast::replaced(const scenario::Session& session, const scenario::Nex
   if (next.compiled) programs_.push_back(next.compiled);
 }
 
-void SessionPast::setRepeats(bool repeats) {
-  if (repeats == std::exchange(repeats_, repeats)) return;
-  recorder_->setPaused(repeats);
-}
-
 // The programs stay those of the session.
 Result<Recording> SessionPast::recording() {
   std::vector<std::shared_ptr<const compiler::Compiled>> programs;

@@ -21,7 +21,7 @@ public:
   void replaced(const scenario::Session& session, const scenario::NextProgram& next) override;
 
   // While the session repeats scans and statements that have been, from a snapshot on, nothing of it is recorded.
-  void setRepeats(bool repeats);
+  void setRepeats(bool repeats) { recorder_->setPaused(repeats); }
 
   // The chain, as `rungc replay` prints it, for a name of the program or of the NC; the error says what is wrong.
   // `back`: so many scans before the newest one, where the session is while it repeats.
@@ -34,7 +34,6 @@ private:
   std::vector<compiler::GetCompiled> programs_; // all that have run
   std::unique_ptr<SessionRecorder> own_;
   SessionRecorder* recorder_;
-  bool repeats_ = false;
 };
 
 } // namespace rung::replay

@@ -82,14 +82,13 @@ public:
       for (const RungFlow& run : facts.flow->runs())
         for (const Access& access : facts.flow->accesses(run))
           if (access.writes && touches(access, cell))
-            lines.push_back(fmt::format("{}: {} = {}", runtime::rungText(program(), run.lowered, lineOf(access)),
+            lines.push_back(fmt::format("{}: {} = {}", runtime::rungText(program_, run.lowered, lineOf(access)),
                                         nameOf({access.place, access.slot}), engine_.shownValue(access)));
     (void)past_.goTo(here);
     return lines;
   }
 
 private:
-  const rung_program& program() const { return program_; }
   const ir::Uses& uses() const { return *compiled_.uses; }
 
   // ---- cells ----
@@ -107,7 +106,7 @@ private:
       for (uint32_t i = 0; i < std::max(1u, ir::byteWidth(slot.type)); ++i) value |= uint64_t{block[at + i]} << (8 * i);
       return value;
     }
-    const core::Memory memory(program(), const_cast<uint8_t*>(block.data())); // which is only read
+    const core::Memory memory(program_, const_cast<uint8_t*>(block.data())); // which is only read
     uint64_t value = 0;
     for (uint32_t i = 0; i < cell.bits.count;) {
       const uint32_t bit = cell.bits.first + i;
@@ -133,7 +132,7 @@ private:
   }
 
   std::optional<BitRange> known(const Cell& cell) {
-    return cell.slot.valid() ? std::nullopt : report::knownPlace(program(), uses(), cell.bits);
+    return cell.slot.valid() ? std::nullopt : report::knownPlace(program_, uses(), cell.bits);
   }
   runtime::Ref refOf(const BitRange& bits, bool real) {
     if (real) return runtime::realRef(bits.space.index, bits.first / 8);
@@ -141,7 +140,7 @@ private:
     return runtime::intRef(bits.space.index, bits.first / 8, bits.count);
   }
   std::string nameOf(const Cell& cell) {
-    if (const std::optional<BitRange> bits = known(cell)) return report::shownName(program(), refOf(*bits, cell.real));
+    if (const std::optional<BitRange> bits = known(cell)) return report::shownName(program_, refOf(*bits, cell.real));
     if (!cell.slot.valid()) return "memory of its own";
     // The key of a slot is of the compiler; the part after the last slash says what it is for.
     const std::string& key = compiled_.shape->slots[cell.slot.index].key;
@@ -485,7 +484,7 @@ private:
     const ir::Op& op = rung.ops[access.operation];
     reason.lowered = run.lowered;
     reason.line = ir::lineOf(rung, op);
-    reason.rung = runtime::rungText(program(), run.lowered, reason.line);
+    reason.rung = runtime::rungText(program_, run.lowered, reason.line);
     if (rung.begin.file.valid()) reason.file = compiled_.shape->files[rung.begin.file.index];
     reason.computed = op.code == ir::OpCode::StoreAt || op.code == ir::OpCode::StoreBitAt;
     if (run.faulted || facts.values[write.run].empty()) return reason;
@@ -667,10 +666,10 @@ private:
     };
     for (const uint32_t writer : uses().writersOf(cell.bits).certain) {
       if (ran(writer)) continue;
-      std::string text = fmt::format("{} did not run in this scan", runtime::rungText(program(), writer));
+      std::string text = fmt::format("{} did not run in this scan", runtime::rungText(program_, writer));
       for (const uint32_t decider : uses().decidersOf(writer))
         if (ran(decider)) {
-          text += fmt::format("; {} jumped over it", runtime::rungText(program(), decider));
+          text += fmt::format("; {} jumped over it", runtime::rungText(program_, decider));
           break;
         }
       explanation.skipped.push_back(std::move(text));

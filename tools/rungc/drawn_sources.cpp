@@ -79,8 +79,11 @@ std::optional<Result<web::ShownProgram>> drawnIfOf(const compiler::Compiled& pro
     return std::nullopt;
   }
   for (const bool renamed : {false, true}) {
-    if (renamed)
-      compile::rename(*collected.sources, compile::SourcePaths(program.module->files, collected.sources->files));
+    if (renamed) {
+      const std::vector<std::string> here = collected.sources->files;
+      compile::rename(*collected.sources, compile::SourcePaths(program.module->files, here));
+      if (collected.sources->files == here) break;
+    }
     Texts texts = textsOf(*collected.sources, program);
     const Result<bool> same = isOf(texts, program);
     if (same.ok() && same.value()) return drawn(texts, *program.dialect);

@@ -20,6 +20,7 @@
 #include "tools/rungc/commands.h"
 #include "tools/rungc/retained_files.h"
 #include "tools/rungc/scenarios.h"
+#include "tools/rungc/stop_signal.h"
 #include "tools/rungc/web.h"
 #include "tools/scenario/compile_step.h"
 #include "tools/scenario/console.h"
@@ -66,15 +67,6 @@ std::string longText(int64_t us) {
   std::string text = minutes < 60 ? "" : fmt::format("{} h ", minutes / 60);
   if (minutes > 0) text += fmt::format("{} min ", minutes % 60);
   return text + fmt::format("{:.3f} s", static_cast<double>(us % kMinute) / 1e6);
-}
-
-scenario::Signal gSignal = 0; // SIGINT and SIGTERM: the only variable that the signal handler writes
-
-void catchSignals() {
-  struct sigaction action{};
-  action.sa_handler = [](int signal) { gSignal = signal; };
-  sigaction(SIGINT, &action, nullptr); // without SA_RESTART: a prompt that reads must notice
-  sigaction(SIGTERM, &action, nullptr);
 }
 
 // The program that is run.
@@ -237,7 +229,7 @@ private:
 
   // Executes inputs, then the scenario, then --scans and --for, then the prompt.
   int drive() {
-    catchSignals();
+    (void)catchStop();
     scenario::Console console(
         session_, watch_, recording_, *explainer_, [this](const std::string& name) { return past_->why(name); },
         print_);
@@ -245,10 +237,10 @@ private:
     int status = runScenario(console);
     if (options_.web) return status == kOk ? showPage() : status;
     if (status == kOk) status = runScans(console);
-    if (!options_.prompt || gSignal == SIGTERM) return status;
-    gSignal = 0;
+    if (!options_.prompt || stopSignal() == SIGTERM) return status;
+    stopSignal() = 0;
     session_.setInterrupt([this] { return interrupted(); });
-    return scenario::runPrompt(console, gSignal, [this] { progress_.begin(); }) ? status : int{kWrong};
+    return scenario::runPrompt(console, stopSignal(), [this] { progress_.begin(); }) ? status : int{kWrong};
   }
 
   int setInputs() {
@@ -313,7 +305,7 @@ private:
     session_.setInterrupt({});
     const std::string title = options_.source.project ? options_.source.project->name : "";
     return serveSession(title, options_.listen, *first().compiled, session_, *past_, *first().flow,
-                        [] { return gSignal != 0; });
+                        [] { return stopSignal() != 0; });
   }
 
   int runRealTime(const scenario::Statement& end) {
@@ -321,7 +313,7 @@ private:
     if (!thread.problem().empty()) return environmentError(thread.problem());
     const bool timed = end.kind == scenario::Kind::Run;
     session_.setInterrupt([this, end, timed] {
-      return gSignal != 0 || (timed ? session_.nowUs() >= end.microseconds : session_.scans() >= end.count);
+      return stopSignal() != 0 || (timed ? session_.nowUs() >= end.microseconds : session_.scans() >= end.count);
     });
     const runtime::RealTimeStats stats = session_.runRealTime();
     fmt::print(out_, "{} slices, {} scans skipped, latest start {:.1f} us, longest slice {:.1f} us\n", stats.slices,
@@ -359,7 +351,7 @@ private:
     if (!options_.source.quiet && session_.scans() % kScansBetween == 0)
       progress_.show(fmt::format("{}, running for {}", scenario::scanText(session_.scans(), session_.nowUs()),
                                  shownSeconds(progress_.seconds())));
-    return gSignal != 0;
+    return stopSignal() != 0;
   }
 
   // ---- end ----
@@ -406,7 +398,7 @@ private:
   scenario::Watch watch_{print_};
   std::unique_ptr<RetainedFiles> retained_;
   std::unique_ptr<replay::SessionRecorder> recorder_; // null: nothing is recorded
-  std::unique_ptr<replay::SessionPast> past_;         // null: there is no prompt
+  std::unique_ptr<replay::SessionPast> past_;         // null: no prompt and no page
   std::unique_ptr<scenario::Trace> trace_;
   std::unique_ptr<scenario::Explainer> explainer_; // set once the session has started
 };

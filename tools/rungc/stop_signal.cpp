@@ -10,6 +10,8 @@ scenario::Signal gStop = 0; // the only variable that the signal handler writes
 
 } // namespace
 
+scenario::Signal& stopSignal() { return gStop; }
+
 scenario::Signal& catchStop() {
   struct sigaction action{};
   action.sa_handler = [](int signal) { gStop = signal; };

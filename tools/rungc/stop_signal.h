@@ -4,7 +4,8 @@
 
 namespace rung::rungc {
 
-// Catches SIGINT and SIGTERM from now on. The signal that has come; 0: none.
+// The first one catches SIGINT and SIGTERM from now on. The signal that has come; 0: none.
 scenario::Signal& catchStop();
+scenario::Signal& stopSignal();
 
 } // namespace rung::rungc

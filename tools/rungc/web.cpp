@@ -35,7 +35,7 @@ int serve(const std::string& listen, web::PacedSource& source, const std::functi
       });
   if (!server.ok()) return environmentError(server.error());
   fmt::print("{}\n", server.value()->newLink());
-  if (std::fflush(stdout) != 0) return kOk; // CommandLine::run reports it; without the link there is no page
+  if (std::fflush(stdout) != 0) return kOk; // the link is lost, which CommandLine::run reports
   source.run(ended);
   return kOk;
 }

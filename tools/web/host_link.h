@@ -42,8 +42,6 @@ public:
   HostLink(const HostLink&) = delete;
   HostLink& operator=(const HostLink&) = delete;
 
-  const std::string& host() const { return host_; }
-
   // Any thread.
   HostState state();
   // Those since the last call.

@@ -1,6 +1,6 @@
 // A machine that runs, as what the page shows: its recording, which is followed while it is written, and its host.
 #pragma once
-#include <functional>
+#include <chrono>
 #include <memory>
 #include <set>
 #include <string>

@@ -230,15 +230,23 @@ Result<std::string> PacedSource::trigger(const std::string& condition) {
     triggerText_ = condition;
   }
   if (!trigger_) return std::string("no trigger");
-  searchPast(*trigger_, condition);
+  searchPast(*trigger_, condition); // which may end in another program
+  triggerProgram_ = nullptr;
   // In the past it is not known whether it holds in the newest scan: then it is taken as holding.
-  triggerHeld_ = shownScan() < lastScan() || trigger_->holds(instance().memory());
+  triggerHeld_ = shownScan() < lastScan() || triggerHolds();
   return "looking for: " + condition;
+}
+
+// A program that lacks one of its names does not fulfil it.
+bool PacedSource::triggerHolds() {
+  if (const rung_program* now = &instance().program(); std::exchange(triggerProgram_, now) != now)
+    triggerKnown_ = trigger_->locate([this](std::string_view name) { return locate(name); }).empty();
+  return triggerKnown_ && trigger_->holds(instance().memory());
 }
 
 void PacedSource::checkTrigger() {
   if (!trigger_) return;
-  const bool held = std::exchange(triggerHeld_, trigger_->holds(instance().memory()));
+  const bool held = std::exchange(triggerHeld_, triggerHolds());
   if (triggerHeld_ && !held) log("trigger", triggerText_, shownScan(), nowUs());
 }
 

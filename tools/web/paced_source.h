@@ -117,6 +117,7 @@ private:
   Result<ScanTrace> readTrace(const std::vector<std::string>& names, uint64_t scans, uint64_t last);
   Result<Shares> readShares(uint64_t scans);
   Result<std::string> trigger(const std::string& condition);
+  bool triggerHolds();
   bool takeTasks(std::unique_lock<std::mutex>& lock);
   std::set<std::string> followed();
   void publish(const std::set<std::string>& names);
@@ -125,6 +126,8 @@ private:
   std::vector<nc::ShownMessage> messages_;
   std::optional<replay::Condition> trigger_;
   bool triggerHeld_ = false;
+  const rung_program* triggerProgram_ = nullptr; // in which its names were looked up
+  bool triggerKnown_ = false;                    // they are all there
 
   std::mutex mutex_;             // protects what follows
   std::condition_variable news_; // for pages: a picture

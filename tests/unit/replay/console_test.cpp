@@ -8,9 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "ir/support/temporary_folder.h"
+#include "tests/unit/replay/recorded_scenario.h"
 #include "tools/replay/console.h"
-#include "tools/replay/record_run.h"
-#include "tools/scenario/in_project.h"
 
 namespace rung::replay {
 namespace {
@@ -22,9 +21,7 @@ using ::testing::StartsWith;
 class ConsoleTest : public testing::Test {
 protected:
   ConsoleTest() {
-    Result<scenario::Scenario> scenario = scenario::readScenario("examples/gsk-panel/panel.scn");
-    scenario::takeProject(scenario.value());
-    recorded_ = std::move(recordScenario(scenario.value(), {.engines = {compiler::EngineKind::Interp}})).value();
+    recorded_ = recordedScenario("examples/gsk-panel/panel.scn");
     past_ = std::move(Past::open(recorded_.recording, {.engine = compiler::EngineKind::Interp})).value();
     EXPECT_EQ(past_->goTo(past_->contents().parts), "");
     console_ = std::make_unique<Console>(*past_, [this](const std::string& line) { said_ += line + "\n"; });

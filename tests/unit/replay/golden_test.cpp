@@ -6,22 +6,16 @@
 #include <sstream>
 
 #include "tests/support/golden.h"
+#include "tests/unit/replay/recorded_scenario.h"
 #include "tools/replay/console.h"
-#include "tools/replay/record_run.h"
-#include "tools/scenario/in_project.h"
 
 namespace rung::replay {
 namespace {
 
 // What the prompt prints for these lines.
 std::string said(const std::string& file, const std::vector<std::string>& lines) {
-  Result<scenario::Scenario> scenario = scenario::readScenario(file);
-  EXPECT_TRUE(scenario.ok()) << file;
-  scenario::takeProject(scenario.value());
-  const Result<RecordedScenario> recorded =
-      recordScenario(scenario.value(), {.engines = {compiler::EngineKind::Interp}});
-  EXPECT_TRUE(recorded.ok()) << recorded.error();
-  Result<std::unique_ptr<Past>> past = Past::open(recorded.value().recording, {.engine = compiler::EngineKind::Interp});
+  const RecordedScenario recorded = recordedScenario(file);
+  Result<std::unique_ptr<Past>> past = Past::open(recorded.recording, {.engine = compiler::EngineKind::Interp});
   EXPECT_TRUE(past.ok());
   EXPECT_EQ(past.value()->goTo(past.value()->contents().parts), "");
   std::string text;

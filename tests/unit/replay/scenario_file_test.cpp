@@ -5,9 +5,9 @@
 
 #include "ir/support/temporary_folder.h"
 #include "tests/unit/replay/recorded_host.h"
+#include "tests/unit/replay/recorded_scenario.h"
 #include "tools/replay/growing_recording.h"
 #include "tools/replay/past.h"
-#include "tools/replay/record_run.h"
 #include "tools/replay/scenario_file.h"
 #include "tools/scenario/in_project.h"
 
@@ -40,13 +40,8 @@ class Exports : public testing::TestWithParam<const char*> {};
 
 TEST_P(Exports, PassWithTheSameProgram) {
   const std::string file = GetParam();
-  Result<scenario::Scenario> scenario = scenario::readScenario(file);
-  ASSERT_TRUE(scenario.ok());
-  scenario::takeProject(scenario.value());
-  const Result<RecordedScenario> recorded =
-      recordScenario(scenario.value(), {.engines = {compiler::EngineKind::Interp}});
-  ASSERT_TRUE(recorded.ok());
-  const auto past = open(recorded.value().recording);
+  const RecordedScenario recorded = recordedScenario(file);
+  const auto past = open(recorded.recording);
   uint64_t to = past->contents().parts; // or where it was started again
   for (const Landmark& landmark : past->contents().landmarks)
     if (landmark.kind == Landmark::Kind::Start && landmark.part > past->firstPart()) to = std::min(to, landmark.part);
@@ -73,13 +68,8 @@ TEST(ExportLacks, NameWhatTheCncDid) {
       {"examples/technol-machining-centre/door.scn", "runs of tasks by the control, such as those of a block"},
   };
   for (const auto& [file, lack] : kCases) {
-    Result<scenario::Scenario> scenario = scenario::readScenario(file);
-    ASSERT_TRUE(scenario.ok());
-    scenario::takeProject(scenario.value());
-    const Result<RecordedScenario> recorded =
-        recordScenario(scenario.value(), {.engines = {compiler::EngineKind::Interp}});
-    ASSERT_TRUE(recorded.ok());
-    const auto past = open(recorded.value().recording);
+    const RecordedScenario recorded = recordedScenario(file);
+    const auto past = open(recorded.recording);
     const Result<ScenarioText> text =
         scenarioOf(*past, std::string(file) + ".scn", past->firstPart(), past->contents().parts);
     ASSERT_TRUE(text.ok()) << text.error();

@@ -1,4 +1,4 @@
-// The page of two versions: what is marked in changed rungs, what is folded, and what stands beside nothing.
+// The page of two versions: what is marked in changed rungs, what is folded, and what only one version has.
 #include "tools/view/compare_html.h"
 
 #include <gtest/gtest.h>

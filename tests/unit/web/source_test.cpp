@@ -12,12 +12,12 @@
 #include <thread>
 #include <vector>
 
+#include "tests/unit/replay/recorded_scenario.h"
 #include "tests/unit/web/drawing.h"
 #include "tools/replay/past.h"
 #include "tools/replay/record_run.h"
 #include "tools/replay/session_past.h"
 #include "tools/scenario/compile_step.h"
-#include "tools/scenario/in_project.h"
 #include "tools/scenario/runner.h"
 #include "tools/scenario/statements.h"
 #include "tools/web/past_source.h"
@@ -257,12 +257,8 @@ TEST(Recorded, ForcesAndTriggers) {
 TEST(Recorded, HasTheMessagesOfItsControl) {
   for (const char* path : {"examples/fanuc-vmc/alarms.scn", "examples/gsk-mill/alarms.scn"}) {
     SCOPED_TRACE(path);
-    auto scenario = scenario::readScenario(path);
-    ASSERT_TRUE(scenario.ok());
-    scenario::takeProject(scenario.value());
-    auto recorded = replay::recordScenario(scenario.value(), {.engines = {compiler::EngineKind::Interp}});
-    ASSERT_TRUE(recorded.ok()) << recorded.error();
-    auto past = replay::Past::open(recorded.value().recording, {.engine = compiler::EngineKind::Interp});
+    const replay::RecordedScenario recorded = replay::recordedScenario(path);
+    auto past = replay::Past::open(recorded.recording, {.engine = compiler::EngineKind::Interp});
     ASSERT_TRUE(past.ok()) << past.error();
     const auto draw = [](const compiler::Compiled& program) {
       return Result<ShownProgram>(ShownProgram(drawingOf(program)));

@@ -59,7 +59,7 @@ class Work {
 public:
   Work(const std::string& scenario, const std::string& piece, uint64_t scans)
       : scenario_(read(scenario)), piece_(read(piece)), scans_(scans) {
-    if (!temporary_.ok()) throw std::runtime_error("there is no folder for the recording");
+    if (!temporary_.ok()) throw std::runtime_error("cannot make a folder for the recording");
   }
 
   // The first pieces show which bytes the machine writes alone.

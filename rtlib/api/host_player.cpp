@@ -38,6 +38,8 @@ std::optional<core::Code> ServedOwner::codeFor(const runtime::Forcing& forcing) 
 HostPlayer::HostPlayer(rung_image* image, runtime::PlayerOwner& owner) : Player(owner) {
   const rung_instance_options options{.size = sizeof options, .user = this, .request = &HostPlayer::request};
   if (newInstance(image, &options, nullptr, &instance_) != RUNG_OK) throw std::runtime_error(errorText());
+  hooks_.emplace(instance_->hooks);
+  instance().setHooks(&*hooks_);
   beginWith(instance().program());
 }
 

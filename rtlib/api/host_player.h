@@ -41,6 +41,23 @@ public:
   const nc::Control& control() const { return *instance_->control; }
 
 private:
+  // An observer sees all hooks of the schedule; those in which the control has nothing to do do nothing.
+  class AllHooks final : public runtime::ScheduleHooks {
+  public:
+    explicit AllHooks(Hooks& own) : own_(own) {}
+    void onHook(runtime::Instance& running, uint32_t work) override {
+      if ((own_.works() >> work & 1) != 0) own_.onHook(running, work);
+    }
+    void onFault(runtime::Instance& running) override { own_.onFault(running); }
+    void onLatch(runtime::Instance& running, uint32_t task) override { own_.onLatch(running, task); }
+    bool respond(runtime::Instance& running, const core::ServiceRequest& request, core::ServiceReply& reply) override {
+      return own_.respond(running, request, reply);
+    }
+
+  private:
+    Hooks& own_;
+  };
+
   static int32_t request(void* player, rung_instance* instance, const rung_request* request, rung_reply* reply);
   int32_t decide(const rung_request& request, rung_reply& reply);
 
@@ -63,6 +80,7 @@ private:
   bool takeFunction();
 
   rung_instance* instance_ = nullptr;
+  std::optional<AllHooks> hooks_;
   std::optional<runtime::InputBits> inputs_, nextInputs_; // those of the next state
   std::vector<Configured> configured_;                    // that the control has
   bool neededOnly_ = false;

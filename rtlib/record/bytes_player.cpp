@@ -19,7 +19,7 @@ LoadResult BytesPlayer::load(core::Loader& loader) {
 
 void BytesPlayer::putBeforeState(EventWriter& writer) const {
   const Surroundings of = instance_.surroundings();
-  writer.put(Event::Surroundings, of.works, of.latches, of.neededOnly);
+  writer.put(Event::Surroundings, surroundings_.works, of.latches, of.neededOnly);
 }
 
 // ---- before a part -----------------------------------------------------------------------------------------------

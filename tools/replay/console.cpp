@@ -11,7 +11,9 @@
 #include "tools/replay/past_messages.h"
 #include "tools/replay/scenario_file.h"
 #include "tools/replay/why.h"
+#include "tools/scenario/in_project.h"
 #include "tools/scenario/names.h"
+#include "tools/scenario/runner.h"
 #include "tools/scenario/trace.h"
 #include "tools/scenario/words.h"
 
@@ -465,6 +467,26 @@ Result<std::vector<std::string>> Console::exportTrace(const std::string& path, u
   return lacks;
 }
 
+namespace {
+
+// The scenario is run, so that none is written that fails without a word. "" or what it does otherwise than recorded.
+std::string whatElseHappens(const std::string& path, const ScenarioText& text) {
+  scenario::Scenario scenario = scenario::parse(path, text.text);
+  scenario::takeProject(scenario);
+  const scenario::RunResult result = scenario::run(scenario, {.engines = {compiler::EngineKind::Interp}});
+  if (!result.environment.empty()) return "it cannot be run here: " + result.environment;
+  const auto isTheFault = [&](const scenario::Problem& problem) {
+    return !text.fault.empty() && problem.message.find(text.fault) != std::string::npos;
+  };
+  const auto other = std::ranges::find_if_not(result.problems, isTheFault);
+  if (other != result.problems.end()) return "it does something else than was recorded: " + textOf(*other);
+  if (result.problems.empty() && !text.fault.empty())
+    return "it does not stop with the fault that was recorded: " + text.fault;
+  return {};
+}
+
+} // namespace
+
 Result<std::vector<std::string>> Console::exportScenario(const std::string& path, uint64_t from, uint64_t to) {
   Result<ScenarioText> scenario = scenarioOf(past_, path, from, to);
   if (!scenario.ok()) return scenario.failure();
@@ -472,7 +494,9 @@ Result<std::vector<std::string>> Console::exportScenario(const std::string& path
   out << scenario.value().text;
   out.close();
   if (!out) return failure(fmt::format("cannot write '{}'", path));
-  return std::move(scenario.value().lacks);
+  std::vector<std::string> lacks = std::move(scenario.value().lacks);
+  if (std::string other = whatElseHappens(path, scenario.value()); !other.empty()) lacks.push_back(std::move(other));
+  return lacks;
 }
 
 Outcome Console::exportCommand(Words words) {

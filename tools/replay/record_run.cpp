@@ -10,6 +10,7 @@
 #include "tools/replay/growing_recording.h"
 #include "tools/scenario/compile_step.h"
 #include "tools/scenario/statements.h"
+#include "tools/scenario/words.h"
 
 namespace rung::replay {
 namespace {
@@ -23,6 +24,8 @@ runtime::RecordedBytes recordedBytes(const rung_program& program) {
   for (size_t i = 0; i < written.size(); ++i) compared[i] = compared[i] || written[i];
   return {.before = runtime::WatchedBytes(program), .within = {program, compared}, .outputs = {program, written}};
 }
+
+constexpr std::string_view kPeriodKey = "period_us"; // of CompileOptions::config
 
 constexpr size_t kRing = size_t{1} << 24;
 constexpr uint64_t kScansBetween = 512; // blocks of files
@@ -45,6 +48,7 @@ SessionRecorder::SessionRecorder(scenario::Session& session, const std::string& 
   folder_ = folder;
   writer_ = std::make_unique<runtime::RecordingWriter>(recorder_->stream(), runtime::RecordingMode::Bytes, options);
   add(program);
+  noteConfiguration(program);
 }
 
 SessionRecorder::~SessionRecorder() {
@@ -55,6 +59,15 @@ void SessionRecorder::add(const compiler::Compiled& program) {
   if (writer_ == nullptr) return;
   const std::string text = compiler::irText(program);
   writer_->addProgram(program.codeHash, {reinterpret_cast<const uint8_t*>(text.data()), text.size()});
+}
+
+void SessionRecorder::noteConfiguration(const compiler::Compiled& program) {
+  for (const auto& [key, value] : program.options.config) {
+    if (key == kPeriodKey)
+      recorder_->mark(fmt::format("period {}us", value));
+    else if (scenario::readsKey(*program.dialect, key))
+      recorder_->mark(fmt::format("config {} {}", key, scenario::asWord(value)));
+  }
 }
 
 // The writer does without a thread of its own: the clock of a session runs far ahead of it.
@@ -166,6 +179,7 @@ Result<RecordedScenario> recordScenario(const scenario::Scenario& scenario, scen
   const auto started = std::exchange(options.started, {});
   options.started = [&](scenario::Session& session, const compiler::Compiled& program) {
     recorder = std::make_unique<SessionRecorder>(session);
+    recorder->noteConfiguration(program);
     session.addObserver(*recorder);
     return started ? started(session, program) : std::string();
   };

@@ -28,6 +28,9 @@ public:
   void scanned(const scenario::Session& session) override;
   void replaced(const scenario::Session& session, const scenario::NextProgram& next) override;
 
+  // Says how the program was compiled, as statements of a scenario.
+  void noteConfiguration(const compiler::Compiled& program);
+
   // Paused: what happens is not recorded. When it continues, the session must be in the same state as then.
   void setPaused(bool paused);
 

@@ -12,6 +12,7 @@ namespace rung::replay {
 
 struct ScenarioText {
   std::string text;
+  std::string fault;              // with which the program stops at its end, without the place; "": it runs
   std::vector<std::string> lacks; // what happened and cannot be written as a scenario, a sentence each
 };
 

@@ -21,15 +21,20 @@ compiler::EngineKind kindOf(const runtime::Engine& engine) {
   return compiler::engineFromName(engine.name()).value_or(compiler::EngineKind::Jit);
 }
 
+std::unique_ptr<sim::SimulatedNc> makeNc(const runtime::Engine& engine, bool recorded) {
+  if (recorded) return std::make_unique<RecordedNc>(engine.program().dialect);
+  return sim::makeSimulatedNc(engine.program().dialect);
+}
+
 void serveWith(rung::Image& image, const runtime::Engine& engine, const compiler::GetCompiled& compiled) {
   if (compiled) check(compiler::serveImage(image.handle(), compiled, kindOf(engine), {}));
 }
 
 } // namespace
 
-EngineRun::EngineRun(runtime::Engine& engine, std::string folder, sim::Clock clock)
-    : engine_(&engine),
-      machine_(engine.program(), engine.context(), sim::makeSimulatedNc(engine.program().dialect), clock) {
+EngineRun::EngineRun(runtime::Engine& engine, std::string folder, sim::Clock clock, bool controlRecorded)
+    : engine_(&engine), machine_(engine.program(), engine.context(), makeNc(engine, controlRecorded), clock) {
+  recordedNc_ = dynamic_cast<RecordedNc*>(&nc());
   nc().setFolder(std::move(folder));
   nc().setAnswers(&requests_);
   requests_.report(nc());

@@ -12,6 +12,7 @@
 #include "rtlib/load/engine.h"
 #include "rung/runtime.hpp"
 #include "sim/machine.h"
+#include "tools/scenario/recorded_nc.h"
 #include "tools/scenario/requests.h"
 
 namespace rung::scenario {
@@ -45,7 +46,7 @@ struct ReplaceReport {
 class EngineRun {
 public:
   // Files that the NC's configuration names are looked for in `folder`. The engine must outlive the run.
-  EngineRun(runtime::Engine& engine, std::string folder, sim::Clock clock);
+  EngineRun(runtime::Engine& engine, std::string folder, sim::Clock clock, bool controlRecorded);
 
   std::string_view engineName() const { return engine_->name(); }
   sim::Machine& machine() { return machine_; }
@@ -54,6 +55,7 @@ public:
   const runtime::Instance& instance() const { return machine_.inside(); }
   sim::SimulatedNc& nc() { return machine_.nc(); }
   const sim::SimulatedNc& nc() const { return machine_.nc(); }
+  RecordedNc* recordedNc() { return recordedNc_; } // null: the NC is a simulation
   Requests& requests() { return requests_; }
   std::vector<std::string>& unreadLog() { return unreadLog_; } // lines since the last expect_log
 
@@ -92,6 +94,7 @@ private:
   void takeLog();
 
   runtime::Engine* engine_;
+  RecordedNc* recordedNc_ = nullptr; // owned by the machine
   sim::Machine machine_;
   Requests requests_;
   std::vector<std::string> unreadLog_;

@@ -135,6 +135,8 @@ private:
   }
 
   bool start() {
+    for (const Statement& s : scenario_.statements)
+      if (s.kind == Kind::Control) session_.setControlRecorded();
     for (compiler::EngineKind kind : engines()) {
       runtime::Engine* engine = engineOf(*program_, kind);
       if (engine == nullptr) return false;

@@ -45,14 +45,16 @@ struct Statement {
   std::string text;  // the line without surrounding blanks
   std::string name;  // Include: the file; Set, Expect…: the name; Config: the key; Event, ExpectCall, Prepare…: the
                      // service or event; ExpectSent: the port; Plc, Block: the command
-  std::vector<std::string> words; // Program, Replace, Shadow: files; Connect: source and destination; Unforce: names
+  std::vector<std::string> words; // Program, Replace, Shadow: files; Connect: source and destination; Unforce: names;
+                                  // Within: the operands of the action, which is the name
   Value value;                    // Set, Force, Expect, ExpectRange (low); Config; ExpectLog, ExpectFault: the text
   Value high;                     // ExpectRange
   bool near = false;              // expect NAME ~ VALUE TOLERANCE
   double tolerance = 0;
   uint64_t count = 1;            // Scan, Fast, Slot
   int64_t microseconds = 0;      // Run, Period
-  uint32_t number = 0;           // ExpectMessage: the number; ExpectError, ExpectWarning: the line, 0 for any
+  uint32_t number = 0;           // ExpectMessage: the number; ExpectError, ExpectWarning: the line, 0 for any;
+                                 // Within: the turn
   bool on = true;                // ExpectMessage
   std::vector<KeyValue> keys;    // Print: names as keys, texts as values without a key
   std::vector<KeyValue> results; // Prepare: the results after ->

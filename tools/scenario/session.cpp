@@ -26,7 +26,7 @@ std::string scanText(uint64_t scan, int64_t us) {
 // ---- start ---------------------------------------------------------------------------------------------------------
 
 void Session::addEngine(runtime::Engine& engine) {
-  runs_.push_back(std::make_unique<EngineRun>(engine, folder_, clock_));
+  runs_.push_back(std::make_unique<EngineRun>(engine, folder_, clock_, controlRecorded_));
 }
 
 void Session::setCompiled(const compiler::GetCompiled& compiled) {
@@ -81,6 +81,9 @@ std::string Session::advanceOnce(EngineRun::Advance how) {
 
 std::string Session::afterScan() {
   std::string problem = difference();
+  for (const std::unique_ptr<EngineRun>& run : runs_)
+    if (RecordedNc* recorded = run->recordedNc(); recorded != nullptr && problem.empty())
+      problem = prefixed(*run, recorded->takeUnused());
   shadows_.work();
   for (const std::unique_ptr<EngineRun>& run : runs_) {
     if (unattended_)
@@ -143,7 +146,7 @@ std::string Session::restart(nc::PowerOn kind) try {
 // ---- statements ----------------------------------------------------------------------------------------------------
 
 std::string Session::prefixed(const EngineRun& run, const std::string& problem) const {
-  return runs_.size() > 1 ? fmt::format("[{}] {}", run.engineName(), problem) : problem;
+  return runs_.size() > 1 && !problem.empty() ? fmt::format("[{}] {}", run.engineName(), problem) : problem;
 }
 
 std::string Session::atScan(std::string problem) const {
@@ -232,6 +235,8 @@ std::string Session::slot(const Statement& s) {
   return advance(s.count, &sim::Machine::slot);
 }
 
+std::string Session::slice(const Statement& s) { return advance(s.count, &sim::Machine::slice); }
+
 std::string Session::expect(const Statement& s) {
   return forRuns([&](EngineRun& run) { return expectValue(run, s); });
 }
@@ -275,6 +280,15 @@ std::string Session::event(const Statement& s) {
 }
 std::string Session::plc(const Statement& s) {
   return operate([&](auto& nc, auto& program) { return nc.plcCommand(program, s.name); });
+}
+
+std::string Session::within(const Statement& s) {
+  return forRuns([&](EngineRun& run) -> std::string {
+    RecordedNc* recorded = run.recordedNc();
+    if (recorded == nullptr)
+      return "the control is simulated: within needs a scenario that begins with control recorded";
+    return recorded->take(run.instance(), s.number, s.name, s.words);
+  });
 }
 
 std::string Session::coldStart(const Statement&) { return restart(nc::PowerOn::Cold); }

@@ -62,6 +62,8 @@ public:
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
+  // Called before engines are added: no control is simulated, `within` says what it does.
+  void setControlRecorded() { controlRecorded_ = true; }
   // Both are called before the start. The engines must outlive the session; config returns "" or what is wrong.
   void addEngine(runtime::Engine& engine);
   std::string config(std::string_view key, std::string_view value);
@@ -151,6 +153,7 @@ private:
   std::string scan(const Statement& s);
   std::string fast(const Statement& s);
   std::string slot(const Statement& s);
+  std::string slice(const Statement& s);
   std::string runFor(const Statement& s);
   std::string expect(const Statement& s);
   std::string expectRange(const Statement& s);
@@ -164,6 +167,7 @@ private:
   std::string block(const Statement& s);
   std::string event(const Statement& s);
   std::string plc(const Statement& s);
+  std::string within(const Statement& s);
   std::string coldStart(const Statement& s);
   std::string warmStart(const Statement& s);
   std::string snapshot(const Statement& s);
@@ -191,6 +195,7 @@ private:
   Shadows shadows_;
   const Statement* statement_ = nullptr;
   uint64_t scans_ = 0;
+  bool controlRecorded_ = false;
   bool running_ = false;
   bool faultExpected_ = false;
   bool unattended_ = false;

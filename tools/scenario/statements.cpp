@@ -151,6 +151,19 @@ private:
     return takeWord(s_.words[0], "a source") && takeWord(s_.words[1], "a destination");
   }
   bool config() { return takeWord(s_.name, "a key") && text(); }
+  bool control() {
+    std::string kind;
+    return takeWord(kind, "recorded") &&
+           (kind == "recorded" || fail(fmt::format("expected recorded, found '{}'", kind)));
+  }
+  bool within() {
+    std::string turn;
+    if (!takeWord(turn, "the number of a turn")) return false;
+    const auto number = text::wholeIn<uint32_t>(turn);
+    if (!number) return fail(fmt::format("'{}' is not the number of a turn", turn));
+    s_.number = *number;
+    return takeWord(s_.name, "an action") && words();
+  }
   bool period() { return duration() && (s_.microseconds > 0 || fail("a period must be longer than 0")); }
   bool call() { return takeWord(s_.name, "a service") && takeKeys(s_.keys); }
   bool event() { return takeWord(s_.name, "an event") && takeKeys(s_.keys); }

@@ -1,5 +1,6 @@
 // The scenario runner: it fails where it should, and it notices a wrong engine. What it says is a golden
 // (golden_test.cpp).
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -52,6 +53,37 @@ TEST_F(ScenarioRunner, PassesAndCountsScans) {
       runText("set 5100.00 1\nscan 3\nexpect 5101.00 1\nset 5100.01 1\nrun 20ms\nexpect 5101.00 0\n");
   EXPECT_TRUE(result.passed) << (result.problems.empty() ? result.environment : result.problems[0].message);
   EXPECT_EQ(result.scans, 5u);
+}
+
+// Nothing is simulated: a value is what statements say, at its turn within a scan.
+TEST_F(ScenarioRunner, ARecordedControlDoesWhatIsWritten) {
+  const std::string begin = "control recorded\n";
+  EXPECT_TRUE(runText(begin + "within 0 set 5100.00 1\nscan\nexpect 5101.00 1\n").passed);
+  EXPECT_TRUE(runText(begin + "set 5100.00 1\nwithin 1 set 5100.01 1\nslice 2\nexpect 5100.01 1\n").passed);
+  EXPECT_TRUE(runText(begin + "plc stop\nset 5100.00 1\nscan\nexpect 5101.00 0\nplc start\nscan\n"
+                              "expect 5101.00 1\n")
+                  .passed);
+  EXPECT_EQ(problemOf("within 0 set 5100.00 1\n"),
+            "2: the control is simulated: within needs a scenario that begins with control recorded (before the first "
+            "scan)");
+  EXPECT_THAT(problemOf("control simulated\nscan\n"), testing::HasSubstr("expected recorded, found 'simulated'"));
+  EXPECT_THAT(problemOf(begin + "within x set 5100.00 1\n"), testing::HasSubstr("'x' is not the number of a turn"));
+  const std::pair<const char*, const char*> kCases[] = {
+      {"0 put 5100.00 1", "expected set NAME BITS, memory SPACE BYTE VALUE, "},
+      {"0 set NOWHERE 1", "'NOWHERE' is not a number or a bit of this program"},
+      {"0 set 5100.00 on", "'on' is not a whole number"},
+      {"0 memory NOWHERE 0 1", "this program has no byte 0 in a memory 'NOWHERE'"},
+      {"0 state NOWHERE 1", "this program has no internal state 'NOWHERE'"},
+      {"0 task NOWHERE", "this program has no task 'NOWHERE'"},
+      {"0 reply 1 late", "expected done or error, found 'late'"},
+      {"0 reply 1 done", "the program has made 0 requests since the start, so there is none with the number 1"},
+  };
+  for (const auto& [action, problem] : kCases)
+    EXPECT_THAT(problemOf(begin + "within " + action + "\n"), testing::HasSubstr(problem)) << action;
+  EXPECT_THAT(problemOf(begin + "within 99 set 5100.00 1\nscan\n"),
+              testing::HasSubstr("the control did not get its turn 99"));
+  EXPECT_THAT(problemOf(begin + "within 0 answer 1 done 5\nscan\n"),
+              testing::HasSubstr("the program did not make request 1"));
 }
 
 TEST_F(ScenarioRunner, ExpectedDiagnosticsMustBeReported) {

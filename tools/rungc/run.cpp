@@ -194,8 +194,6 @@ private:
     if (const int status = openTrace(); status != kOk) return status;
     if (const int status = openRecording(); status != kOk) return status;
     const bool asked = options_.prompt || options_.web || !options_.scenarioFile.empty();
-    explainer_ = std::make_unique<scenario::Explainer>(session_, asked ? first().uses() : nullptr);
-    session_.addObserver(*explainer_);
     if (!asked) return kOk;
     past_ = std::make_unique<replay::SessionPast>(session_, [this] { return first().wanted(); }, recorder_.get());
     session_.addObserver(*past_);
@@ -231,7 +229,8 @@ private:
   int drive() {
     (void)catchStop();
     scenario::Console console(
-        session_, watch_, recording_, *explainer_, [this](const std::string& name) { return past_->why(name); },
+        session_, watch_, recording_, [this](const std::string& name) { return past_->why(name); },
+        [this](const scenario::Statement& s) { return past_->whyUnexpected(s, "why " + scenario::asWord(s.name)); },
         print_);
     if (const int status = setInputs(); status != kOk) return status;
     int status = runScenario(console);
@@ -333,7 +332,7 @@ private:
     if (!program) return failure("the running program has not changed");
     programs_.push_back(std::move(*program));
     Program& next = programs_.back();
-    return scenario::NextProgram{{&next.runs()}, next.uses(), [&next] { return next.wanted(); }};
+    return scenario::NextProgram{{&next.runs()}, [&next] { return next.wanted(); }};
   }
 
   // Checks the dialect that the sources declare.
@@ -400,7 +399,6 @@ private:
   std::unique_ptr<replay::SessionRecorder> recorder_; // null: nothing is recorded
   std::unique_ptr<replay::SessionPast> past_;         // null: no prompt and no page
   std::unique_ptr<scenario::Trace> trace_;
-  std::unique_ptr<scenario::Explainer> explainer_; // set once the session has started
 };
 
 std::optional<Program> openSharedObject(const RunOptions& options, const std::string& file, int& status) {

@@ -72,6 +72,11 @@ Result<SessionPast::Answer> SessionPast::answer(const std::string& name, bool wa
   return Answer{replay::why(past, *place, options), {}};
 }
 
+uint64_t SessionPast::scans() {
+  const Result<Recording> recording = this->recording();
+  return recording.ok() ? Contents(recording.value()).parts : session_.scans();
+}
+
 Result<std::string> SessionPast::why(const std::string& name, uint64_t back) {
   Result<Answer> found = answer(name, false, back);
   if (!found.ok()) return found.failure();

@@ -27,6 +27,8 @@ public:
   // While the session repeats scans and statements that have been, from a snapshot on, nothing of it is recorded.
   void setRepeats(bool repeats) { recorder_->setPaused(repeats); }
 
+  // That have run so far, as the chain counts them: not those of a program that has stopped with a fault.
+  uint64_t scans();
   // The chain, as `rungc replay` prints it, for a name of the program or of the NC; the error says what is wrong.
   // `back`: so many scans before the newest one, where the session is while it repeats.
   Result<std::string> why(const std::string& name, uint64_t back = 0);

@@ -234,8 +234,8 @@ private:
         print_);
     if (const int status = setInputs(); status != kOk) return status;
     int status = runScenario(console);
-    if (options_.web) return status == kOk ? showPage() : status;
     if (status == kOk) status = runScans(console);
+    if (options_.web) return status == kOk && stopSignal() == 0 ? showPage() : status;
     if (!options_.prompt || stopSignal() == SIGTERM) return status;
     stopSignal() = 0;
     session_.setInterrupt([this] { return interrupted(); });
@@ -283,7 +283,7 @@ private:
   int runScans(scenario::Console& console) {
     if (!options_.prompt) session_.setUnattended();
     session_.setInterrupt([this] { return interrupted() || session_.instance().faulted(); });
-    const bool driven = options_.prompt || !options_.scenarioFile.empty();
+    const bool driven = options_.prompt || options_.web || !options_.scenarioFile.empty();
     scenario::Statement advance;
     advance.kind = options_.duration.empty() ? scenario::Kind::Scan : scenario::Kind::Run;
     advance.count = options_.scans.value_or(driven ? 0 : 1);
@@ -497,7 +497,7 @@ void addRun(CommandLine& app, int& status) {
                  "interp, cpp, llvm, jit, or tiered (interp until jit has compiled). Default: tiered, with --debugger "
                  "jit; a shared object needs none");
   Option scans =
-      command.option("--scans", options->scans, "Number of scans; default: 1, or 0 with --scenario or --prompt")
+      command.option("--scans", options->scans, "Number of scans; default: 1, or 0 with --scenario, --prompt or --web")
           .between(uint64_t{0}, kMostScans);
   command.option("--for", options->duration, "Time to run, such as 2s or 500ms").excludes(scans);
   command

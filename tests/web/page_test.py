@@ -479,6 +479,7 @@ class Recorded(unittest.TestCase):
             page.until("return document.getElementById('state').textContent === 'Past'", "the past")
             last = int(page.text("#scan"))
             self.assertEqual(page.text("#go"), "Play")
+            page.until("return [...document.querySelectorAll('#alarms .text')].some(cell => cell.textContent === '49 PRESS MACHINE ON')", "messages with their texts")
             page.click("#back")
             page.until("return document.getElementById('scan').textContent === String(arguments[0])", "a scan back", last - 1)
             page.js("const s = document.getElementById('slider'); s.value = 2; s.dispatchEvent(new Event('input'))")

@@ -167,6 +167,11 @@ class Machine(Following):
         self.assertEqual(before["values"], {"LAMP": "0"})
         trace = self.live.ask("trace?names=LAMP&scans=5")
         self.assertEqual((trace["first"], trace["values"]), (pressed - 5, [["0"] * 5]))
+        for what in ("step", "seek"):
+            self.live.order("seek", scans=pressed)
+            self.until(lambda p: p["scan"] == pressed)
+            self.live.order(what, scans=-10**15)
+            self.until(lambda p: p["scan"] == p["first"])
         self.live.order("run")
         self.until(lambda p: p["state"] == "running" and p["scan"] > later["last"])
 

@@ -244,8 +244,9 @@ class Page(unittest.TestCase):
         page.until("return document.activeElement.id === 'r256'", "the next")
         page.keys(Keys.ARROW_RIGHT)
         page.until("return document.querySelector('#r256 .at') && !document.getElementById('detail').hidden", "an element")
+        page.js("document.querySelector('#detail button:not(.close)').focus()")
         page.keys(Keys.ESCAPE)
-        page.until("return document.getElementById('detail').hidden", "closed")
+        page.until("return document.getElementById('detail').hidden && document.activeElement.id === 'r256'", "closed, and back at its rung")
         page.keys(" ")
         page.until("return document.getElementById('state').textContent === 'Paused'", "paused")
         page.keys(",")
@@ -282,7 +283,7 @@ class Page(unittest.TestCase):
         text = page.until("const t = document.querySelector('#r260')?.getAttribute('aria-label'); return /CW_ORDER (conducts|does not)/.test(t) && t", "the rung in words")
         self.assertIn("Rung 260: contactor clockwise. ", text)
         self.assertIn("SPINDLE_CW off", text)
-        unnamed = page.js("return [...document.querySelectorAll('button,input,select,[role]')].filter(e => e.offsetParent && "
+        unnamed = page.js("return [...document.querySelectorAll('button,input,select,table:not(:has(caption)),[role]')].filter(e => e.offsetParent && "
                           "!e.textContent.trim() && !e.getAttribute('aria-label') && !e.getAttribute('aria-labelledby')).map(e => e.outerHTML)")
         self.assertEqual(unnamed, [])
 
@@ -479,6 +480,7 @@ class Recorded(unittest.TestCase):
             page.until("return document.getElementById('state').textContent === 'Past'", "the past")
             last = int(page.text("#scan"))
             self.assertEqual(page.text("#go"), "Play")
+            page.until("return [...document.querySelectorAll('#alarms .text')].some(cell => cell.textContent === '49 PRESS MACHINE ON')", "messages with their texts")
             page.click("#back")
             page.until("return document.getElementById('scan').textContent === String(arguments[0])", "a scan back", last - 1)
             page.js("const s = document.getElementById('slider'); s.value = 2; s.dispatchEvent(new Event('input'))")

@@ -128,6 +128,11 @@ std::vector<ShownMessage> messagesOf(const runtime::Instance& instance, const nc
   return shown;
 }
 
+uint64_t scanFrom(uint64_t from, int64_t scans) {
+  const auto count = static_cast<uint64_t>(scans);
+  return scans < 0 ? from - std::min(from, uint64_t{0} - count) : from + count;
+}
+
 // ---- orders --------------------------------------------------------------------------------------------------------
 
 // A task that is not done in time is done all the same: its promise belongs to it.

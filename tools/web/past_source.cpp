@@ -164,11 +164,8 @@ Result<std::string> PastSource::carryOut(const Order& order) {
   switch (order.kind) {
   case Order::Kind::Run: running_ = true; return std::string("playing");
   case Order::Kind::Pause: return std::string("paused");
-  case Order::Kind::Step: {
-    const bool before = order.scans < 0 && past_->part() < static_cast<uint64_t>(-order.scans);
-    return seek(before ? 0 : past_->part() + static_cast<uint64_t>(order.scans));
-  }
-  case Order::Kind::Seek: return seek(order.scans < 0 ? 0 : static_cast<uint64_t>(order.scans));
+  case Order::Kind::Step: return seek(scanFrom(past_->part(), order.scans));
+  case Order::Kind::Seek: return seek(scanFrom(0, order.scans));
   case Order::Kind::Set:
   case Order::Kind::Force:
   case Order::Kind::Unforce:

@@ -183,8 +183,7 @@ Result<std::string> SessionSource::write(const std::string& line, const char* ki
 }
 
 Result<std::string> SessionSource::step(int64_t scans) {
-  if (scans < 0 || scan_ < last_)
-    return seek(scans < 0 && scan_ < static_cast<uint64_t>(-scans) ? 0 : scan_ + static_cast<uint64_t>(scans));
+  if (scans < 0 || scan_ < last_) return seek(scanFrom(scan_, scans));
   for (int64_t i = 0; i < std::min(scans, kMostSteps); ++i) nextScan();
   return fmt::format("scan {}", scan_);
 }
@@ -200,7 +199,7 @@ Result<std::string> SessionSource::carryOut(const Order& order) {
   }
   case Order::Kind::Pause: return std::string("paused");
   case Order::Kind::Step: return step(order.scans);
-  case Order::Kind::Seek: return seek(order.scans < 0 ? 0 : static_cast<uint64_t>(order.scans));
+  case Order::Kind::Seek: return seek(scanFrom(0, order.scans));
   case Order::Kind::Set: return write(fmt::format("set {} {}", name, scenario::asWord(order.value)), "set");
   case Order::Kind::Force: return write(fmt::format("force {} {}", name, scenario::asWord(order.value)), "force");
   case Order::Kind::Unforce: return write(name.empty() ? "unforce" : "unforce " + name, "force");

@@ -140,7 +140,7 @@ async function start() {
   const pane = new Pane(by('ladder'), by('space'), index, width, choose);
   const tree = new Tree(by('tree'), index, goRow);
   const watch = new Watch(by('watch'), names, writer, choose, 'rung-watch-' + index.title);
-  const detail = new Detail(by('detail'), names, writer, {go: goRung, goRow, seek, causes: map => pane.setCauses(map),
+  const detail = new Detail(by('detail'), names, writer, {go: goRung, goRow, seek, causes: map => pane.setCauses(map), back: () => pane.focus(),
     watch: name => { watch.add(name); tell(`${name} is watched`); }});
   const terminals = new Terminals(by('io'), names, goRung, choose);
   const history = new History(by('log'), writer, seek);
@@ -334,7 +334,16 @@ async function start() {
   document.addEventListener('keydown', event => {
     if (event.ctrlKey || event.metaKey || event.altKey || by('dialog').open) return;
     const typing = event.target.matches('input:not([type=range]), select, textarea');
-    if (event.key === 'Escape') { if (!typing) { detail.close(); closeSide(); more(false); follow(); } return; }
+    if (event.key === 'Escape') {
+      if (typing && !event.target.closest('#detail')) return;
+      const fromSide = by('side').contains(event.target);
+      detail.close();
+      closeSide();
+      more(false);
+      follow();
+      if (fromSide) by('menu').focus();
+      return;
+    }
     if (typing) return;
     const inside = event.target.closest('article, #ladder, body') && !event.target.closest('#tree, #tabs, #io, #watch, #log');
     const acts = {

@@ -276,6 +276,8 @@ export class Pane {
     requestAnimationFrame(() => one?.scrollIntoView({block: 'nearest', inline: 'nearest'}));
   }
 
+  focus() { this.shown.get(this.focusRow)?.focus({preventScroll: true}); }
+
   // The next or previous rung from the focused one.
   move(step) {
     let row = this.focusRow < 0 ? this.visible()[0] - step : this.focusRow;

@@ -56,7 +56,8 @@ const causeText = ([name, value, , alone]) => name + (value ? ` = ${value}` : ''
 
 // The name that is selected: what it is, its value, where it is used, and why.
 export class Detail {
-  // `act`: go(rung, place), goRow(row), seek(scan), watch(name), causes(map of rows to what decided in them).
+  // `act`: go(rung, place), goRow(row), seek(scan), watch(name), causes(map of rows to what decided in them),
+  // back(): the focus goes to the rungs.
   constructor(box, names, writer, act) {
     Object.assign(this, {box, names, writer, act, name: ''});
   }
@@ -163,17 +164,20 @@ export class Detail {
   }
 
   close() {
+    const hadFocus = this.box.contains(document.activeElement);
     this.box.hidden = true;
     this.name = '';
     this.act.causes(new Map());
+    if (hadFocus) this.act.back();
   }
 }
 
 // Names whose values are shown in a table: the watch list, and inputs and outputs.
 class NameTable {
-  constructor(heads) {
+  constructor(label, heads) {
     this.cells = new Map();
     Object.assign(this, tableOf(heads));
+    this.table.setAttribute('aria-label', label);
   }
   draw(picture) {
     const forced = new Set(picture.forces.flatMap(cell => cell.ids));
@@ -200,7 +204,7 @@ export class Watch {
   constructor(box, names, writer, choose, key) {
     Object.assign(this, {box, names, writer, choose, key});
     try { this.list = JSON.parse(localStorage.getItem(key) ?? '[]'); } catch { this.list = []; }
-    this.table = new NameTable([['', 'Name'], ['', 'Address'], ['', 'Value'], ['about', 'Comment'], ['act', '']]);
+    this.table = new NameTable('Watched names', [['', 'Name'], ['', 'Address'], ['', 'Value'], ['about', 'Comment'], ['act', '']]);
     const form = make('form', 'add');
     const input = make('input');
     input.placeholder = 'Name or address';
@@ -266,7 +270,7 @@ export class Terminals {
   constructor(box, names, go, choose) {
     Object.assign(this, {box, names, go, choose});
     this.sorted = {column: -1, back: false};
-    this.table = new NameTable(kColumns.map(([name, text, by], i) => [name, by ? this.sortButton(text, i) : text]));
+    this.table = new NameTable('Inputs and outputs', kColumns.map(([name, text, by], i) => [name, by ? this.sortButton(text, i) : text]));
     const bar = make('div', 'add');
     this.filter = make('input');
     this.filter.type = 'search';

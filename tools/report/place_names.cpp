@@ -98,13 +98,6 @@ std::string shownName(const rung_program& program, const Ref& place) {
   return nc::hasAddresses(program) && address != symbol ? fmt::format("{} ({})", symbol, address) : symbol;
 }
 
-std::string shownRange(const rung_program& program, const ir::BitRange& range) {
-  const Ref first = runtime::intRef(range.space.index, range.first / 8, 8);
-  const uint32_t end = (range.first + range.count - 1) / 8;
-  const Ref last = runtime::intRef(range.space.index, end - end % program.spaces[range.space.index].unit_bytes, 8);
-  return fmt::format("one of {} to {}", nc::describe(program, first), nc::describe(program, last));
-}
-
 std::string writtenName(const rung_program& program, const Ref& use) {
   const Ref place = nc::meant(program, use);
   const auto found = [&](const std::string& name) {

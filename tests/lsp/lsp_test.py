@@ -137,6 +137,21 @@ class Names(Case):
         changes = edit["changes"][self.client.uri("main.lad")]
         self.assertEqual(applied(MAIN, changes), MAIN.replace("LAMP", "LIGHT"))
 
+    def test_of_another_length_get_new_columns(self):
+        before = """rung
+|--[START]--+--[7000.01]--+--(LAMP) ; comment
+            +--[LAMP]-----+--(7002.00)
+"""
+        after = """rung
+|--[START]--+--[7000.01]--------+--(THE_LONG_LAMP) ; comment
+            +--[THE_LONG_LAMP]--+--(7002.00)
+"""
+        text = MAIN.replace("rung\n", before + "rung\n", 1)
+        self.client.change("main.lad", text)
+        edit = self.client.at("main.lad", *place(text, "LAMP"), "rename", newName="THE_LONG_LAMP")
+        self.assertEqual(applied(text, edit["changes"][self.client.uri("main.lad")]),
+                         text.replace(before, after).replace("LAMP", "THE_LONG_LAMP").replace("THE_LONG_THE_LONG_", "THE_LONG_"))
+
     def test_are_not_renamed_to_what_collides(self):
         params = {"textDocument": {"uri": self.client.uri("main.lad")}, "position": dict(zip(("line", "character"), place(MAIN, "LAMP")))}
         for name in ("START", "LIMIT", "two words", "", "7000.00", "7"):

@@ -17,6 +17,8 @@ struct Place {
   Unit unit;
 };
 
+bool isLadderText(const Program& program, FileId file);
+
 // Of all files of a program, by their paths: also of those without any.
 std::map<std::string, json> diagnosticsOf(Program& program, Unit unit);
 // The fixes of diagnostics in the range.

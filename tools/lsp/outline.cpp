@@ -57,7 +57,11 @@ std::vector<Part> partsOf(const SourceManager& sources, FileId file) {
   return parts;
 }
 
+} // namespace
+
 bool isLadderText(const Program& program, FileId file) { return program.sources().name(file).ends_with(".lad"); }
+
+namespace {
 
 // The parts from `next` on that are inside the line `end`, with those inside them.
 json nested(const std::vector<Part>& parts, size_t& next, uint32_t end, const SourceManager& sources, FileId file,

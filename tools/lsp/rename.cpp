@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "frontend/ladder/text/rewrite.h"
 #include "tools/lsp/features.h"
 #include "tools/lsp/subject.h"
 #include "tools/lsp/uri.h"
@@ -21,24 +22,29 @@ const frontend::Definition& renamed(const Place& place) {
   return *subject->definition;
 }
 
-// The texts with the new name, by the paths of their files.
-OpenTexts textsWith(const SourceManager& sources, const std::vector<Occurrence>& places, const std::string& name) {
-  OpenTexts texts;
-  for (uint32_t i = 0; i < sources.fileCount(); ++i) {
-    const FileId file{i};
-    std::string text;
-    size_t from = 0;
-    for (const Occurrence& one : places) {
-      if (sources.fileOf(one.range.begin) != file) continue;
-      const size_t begin = sources.offsetOf(one.range.begin);
-      text += sources.text(file).substr(from, begin - from);
-      text += name;
-      from = sources.offsetOf(one.range.end);
-    }
-    text += sources.text(file).substr(from);
-    texts.emplace(pathOf(sources, file), std::move(text));
+using frontend::ladder::Change;
+
+// Of one file, in the order of its text.
+std::vector<Change> changesOf(const Program& program, FileId file, const std::vector<Occurrence>& places,
+                              const std::string& name) {
+  const SourceManager& sources = program.sources();
+  std::vector<Change> words;
+  for (const Occurrence& one : places)
+    if (sources.fileOf(one.range.begin) == file) words.push_back({one.range, name});
+  if (words.empty() || !isLadderText(program, file)) return words;
+  return frontend::ladder::withDrawings(sources, file, program.dialect()->findBox, std::move(words));
+}
+
+std::string applied(const SourceManager& sources, FileId file, const std::vector<Change>& changes) {
+  std::string text;
+  size_t from = 0;
+  for (const Change& change : changes) {
+    const size_t begin = sources.offsetOf(change.range.begin);
+    text += sources.text(file).substr(from, begin - from);
+    text += change.text;
+    from = sources.offsetOf(change.range.end);
   }
-  return texts;
+  return text += sources.text(file).substr(from);
 }
 
 std::string firstError(const Program& program) {
@@ -74,12 +80,18 @@ json rename(const Place& place, const std::string& name) {
   const frontend::Definition& definition = renamed(place);
   const SourceManager& sources = place.program.sources();
   const std::vector<Occurrence> places = occurrencesOf(*place.program.analysis(), definition);
-  checkRenamed(place.program, textsWith(sources, places, name), places, name);
+  OpenTexts texts;
   json changes = json::object();
-  for (const Occurrence& one : places) {
-    changes[uriOf(pathOf(sources, sources.fileOf(one.range.begin)))].push_back(
-        {{"range", toJson(rangeOf(sources, one.range, place.unit))}, {"newText", name}});
+  for (uint32_t i = 0; i < sources.fileCount(); ++i) {
+    const FileId file{i};
+    const std::vector<Change> ofFile = changesOf(place.program, file, places, name);
+    const std::string path = pathOf(sources, file);
+    texts.emplace(path, applied(sources, file, ofFile));
+    for (const Change& change : ofFile)
+      changes[uriOf(path)].push_back(
+          {{"range", toJson(rangeOf(sources, change.range, place.unit))}, {"newText", change.text}});
   }
+  checkRenamed(place.program, texts, places, name);
   return {{"changes", std::move(changes)}};
 }
 

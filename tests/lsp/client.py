@@ -92,8 +92,9 @@ class Client:
         self.notify("textDocument/didClose", {"textDocument": {"uri": self.uri(name)}})
 
     def wait_for_diagnostics(self, name):
-        """The next that the server publishes of the document."""
-        while (message := self.next()).get("method") != "textDocument/publishDiagnostics" or not message["params"]["uri"].endswith("/" + name):
+        """Those of the document's last text."""
+        wanted = (self.uri(name), self.versions[name])
+        while (message := self.next()).get("method") != "textDocument/publishDiagnostics" or (message["params"]["uri"], message["params"].get("version")) != wanted:
             pass
         return self.diagnostics[name]
 

@@ -171,12 +171,16 @@ json Server::shutdown(const json& /*params*/) {
 
 json Server::opened(const json& params) {
   const json& document = member(params, "textDocument");
-  workspace_.open(pathOf(textIn(document, "uri")), textIn(document, "text"));
+  const std::string path = pathOf(textIn(document, "uri"));
+  workspace_.open(path, textIn(document, "text"));
+  versions_[path] = document.value("version", json());
   return saved(params);
 }
 
 json Server::changed(const json& params) {
   const std::string path = pathIn(params);
+  if (workspace_.textOf(path) == nullptr) throw RequestError(ErrorCode::InvalidParams, path + " is not open");
+  versions_[path] = member(params, "textDocument").value("version", json());
   for (const json& change : member(params, "contentChanges")) {
     const std::string text = textIn(change, "text");
     if (!change.contains("range"))
@@ -190,6 +194,7 @@ json Server::changed(const json& params) {
 json Server::closed(const json& params) {
   const std::string path = pathIn(params);
   workspace_.close(path);
+  versions_.erase(path);
   return saved(params);
 }
 
@@ -278,9 +283,9 @@ void Server::publish(Program& program) {
       shown.erase(path);
     else
       shown.insert(path);
-    send({{"jsonrpc", "2.0"},
-          {"method", "textDocument/publishDiagnostics"},
-          {"params", {{"uri", uriOf(path)}, {"diagnostics", std::move(list)}}}});
+    json params{{"uri", uriOf(path)}, {"diagnostics", std::move(list)}};
+    if (const auto version = versions_.find(path); version != versions_.end()) params["version"] = version->second;
+    send({{"jsonrpc", "2.0"}, {"method", "textDocument/publishDiagnostics"}, {"params", std::move(params)}});
   }
 }
 

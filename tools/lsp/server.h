@@ -67,6 +67,7 @@ private:
   std::string version_;
   Unit unit_ = Unit::Utf16;
   Workspace workspace_;
+  std::map<std::string, json> versions_;               // of open files, by their paths
   std::set<std::string> unchecked_;                    // paths of open files
   std::map<std::string, uint64_t> published_;          // checks of a program, by its path
   std::map<std::string, std::set<std::string>> shown_; // files that have diagnostics of a program, by its path

@@ -202,6 +202,27 @@ class Outline(Case):
         self.assertIn("|--[START]", edit["newText"])
 
 
+class Beside(Case):
+    """What an editor shows beside the text."""
+    files = {"main.lad": MAIN, "main.plc": "...\n"}
+
+    def test_are_counts_of_uses(self):
+        self.client.open("main.lad")
+        lenses = self.client.of("main.lad", "codeLens")
+        self.assertEqual([one["command"]["title"] for one in lenses], ["0 writes, 2 reads", "1 write, 1 read"])
+
+    def test_are_addresses_in_lists(self):
+        text = "dialect gsk\nsymbol DOOR X10.0\nsymbol LAMP Y1.0\nFUNC END1\nLD DOOR\nOUT LAMP\nFUNC END2\n"
+        self.client.open("list.pmc", text)
+        self.assertEqual(self.codes("list.pmc"), [])
+        hints = self.client.of("list.pmc", "inlayHint", range=span(0, 0, 99, 0))
+        self.assertEqual([(one["label"], one["position"]["line"]) for one in hints], [("X10.0", 4), ("Y1.0", 5)])
+
+    def test_are_no_hints_in_drawings(self):
+        self.client.open("main.lad")
+        self.assertEqual(self.client.of("main.lad", "inlayHint", range=span(0, 0, 99, 0)), [])
+
+
 class Units(Case):
     """Columns are counted as both sides have agreed."""
     def columns(self, *encodings):

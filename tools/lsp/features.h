@@ -38,6 +38,11 @@ json foldingRanges(Program& program, FileId file);
 json semanticTokens(Program& program, FileId file, Unit unit);
 json semanticLegend();
 
+// How often each name that is declared in the file is written and read.
+json codeLenses(Program& program, FileId file, Unit unit);
+// Addresses and values of names up to the end.
+json inlayHints(const Place& begin, SourcePos end);
+
 json completion(const Place& place);
 json formatting(Program& program, FileId file, Unit unit);
 

@@ -71,6 +71,8 @@ const Server::Method Server::kRequests[] = {
     {"textDocument/semanticTokens/full", &Server::tokensIn},
     {"textDocument/formatting", &Server::formatted},
     {"textDocument/codeAction", &Server::actionsAt},
+    {"textDocument/codeLens", &Server::lensesIn},
+    {"textDocument/inlayHint", &Server::hintsIn},
 };
 
 const Server::Method Server::kNotifications[] = {
@@ -161,6 +163,8 @@ json Server::initialize(const json& params) {
             {"foldingRangeProvider", true},
             {"semanticTokensProvider", {{"legend", semanticLegend()}, {"full", true}}},
             {"documentFormattingProvider", true},
+            {"codeLensProvider", json::object()},
+            {"inlayHintProvider", true},
             {"codeActionProvider", {{"codeActionKinds", {"quickfix"}}}}}}};
 }
 
@@ -257,12 +261,26 @@ json Server::formatted(const json& params) {
   return formatting(program, file, unit_);
 }
 
-json Server::actionsAt(const json& params) {
+std::pair<Place, SourcePos> Server::spanOf(const json& params) {
   const Range range = rangeFrom(member(params, "range"));
   const auto [program, file] = fileOf(params);
   const SourceManager& sources = program.sources();
-  return codeActions({program, file, posOf(sources, file, range.begin, unit_), unit_},
-                     posOf(sources, file, range.end, unit_));
+  return {{program, file, posOf(sources, file, range.begin, unit_), unit_}, posOf(sources, file, range.end, unit_)};
+}
+
+json Server::actionsAt(const json& params) {
+  const auto [begin, end] = spanOf(params);
+  return codeActions(begin, end);
+}
+
+json Server::hintsIn(const json& params) {
+  const auto [begin, end] = spanOf(params);
+  return inlayHints(begin, end);
+}
+
+json Server::lensesIn(const json& params) {
+  const auto [program, file] = fileOf(params);
+  return codeLenses(program, file, unit_);
 }
 
 void Server::checkWhileIdle() {

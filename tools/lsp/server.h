@@ -54,10 +54,14 @@ private:
   json tokensIn(const json& params);
   json formatted(const json& params);
   json actionsAt(const json& params);
+  json lensesIn(const json& params);
+  json hintsIn(const json& params);
 
   // Throw RequestError for a file that no program has.
   Place placeOf(const json& params);
   std::pair<Program&, FileId> fileOf(const json& params);
+  // The beginning and the end of its `range`.
+  std::pair<Place, SourcePos> spanOf(const json& params);
 
   // Checks programs of open files while the editor says nothing.
   void checkWhileIdle();

@@ -1,4 +1,4 @@
-// What may stand at a place: instructions, names, signals of the control, words that begin a statement.
+// What may be written at a place: instructions, names, signals of the control, words that begin a statement.
 #include <algorithm>
 #include <set>
 #include <string>
@@ -17,7 +17,7 @@ enum class ItemKind : int { Function = 3, Variable = 6, Keyword = 14, Constant =
 
 constexpr size_t kMost = 500; // items of an answer; a longer word gives others
 
-// What is expected, by what stands before the word on its line.
+// What is expected, by what is before the word on its line.
 enum class Expected : uint8_t { Statement, Instruction, Operand };
 
 class Completion {

@@ -27,7 +27,7 @@ struct Range {
 uint32_t unitsOf(std::string_view text, Unit unit);
 size_t bytesOf(std::string_view text, uint32_t units, Unit unit);
 
-// The offset in a text; a place behind the end of a line, or of the text, is that end.
+// The offset in a text; a place beyond the end of a line, or of the text, is that end.
 size_t offsetOf(std::string_view text, Position position, Unit unit);
 
 // The same for files of a program. The range must be valid.

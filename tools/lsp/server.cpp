@@ -126,7 +126,7 @@ json Server::answer(const std::string& method, const json& params) {
   return (this->*found->handler)(params);
 }
 
-// An editor cannot be told what is wrong with a notification.
+// Notifications have no answer that could say what is wrong with them.
 void Server::notice(const std::string& method, const json& params) {
   if (method == "exit") {
     isOver_ = true;

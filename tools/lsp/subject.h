@@ -16,7 +16,7 @@ struct Subject {
   const frontend::TargetUse* target = nullptr;      // of a label or a subprogram
 };
 
-// Also of a word that ends there, as a cursor behind its last character is at it. Nothing: a word of another kind.
+// Also of a word that ends there, as a cursor after its last character is at it. Nothing: a word of another kind.
 std::optional<Subject> subjectAt(const frontend::Analysis& analysis, SourcePos at);
 
 struct Occurrence {

@@ -16,7 +16,7 @@ public:
   std::optional<std::string> read();
   // Whether read() would not wait, as far as is known.
   bool hasInput() const;
-  // False if nobody reads any more.
+  // False if the other end is closed.
   bool write(std::string_view message) const;
 
   static constexpr size_t kMostBytes = size_t{64} << 20;

@@ -51,7 +51,7 @@ private:
     return true;
   }
 
-  // From behind, so that the places before stay valid.
+  // From the last one, so that the places before it stay valid.
   static void replaceIn(Word& operand, std::span<const Change> words, std::deque<std::string>& texts) {
     std::string text(operand.text);
     bool changed = false;

@@ -462,7 +462,7 @@ class Recorded(unittest.TestCase):
             page.until("return document.querySelector('#detail h2')?.textContent === 'FIN'", "the name")
             page.js("[...document.querySelectorAll('#detail button')].find(b => b.textContent === 'Why?').click()")
             page.until("return document.querySelectorAll('.step').length > 1", "the chain")
-            self.assertIn("F7.3 = 0 (alone)", page.text(".step"))
+            self.assertIn("TF = 0 (alone)", page.text(".step"))
             self.assertIn("It would be different with M_STROBE (R15.4) = 1", page.text(".different"))
             framed = page.until("const all = [...document.querySelectorAll('#r448 .cause[data-name]')].map(e => e.dataset.name); return all.length && all", "framed")
             self.assertEqual(sorted(set(framed)), ["EF", "M_STROBE", "SF", "TF"])

@@ -64,6 +64,7 @@ class Page(unittest.TestCase):
         """Scans that are shown again show what they have shown, forwards and backwards, and the newest scan stays."""
         self.pause()
         self.browser.js("document.querySelector('#ladder').scrollTop = 0")
+        self.browser.until("return document.getElementById('r1')", "the first rungs, which are drawn after the scrolling")
         newest = self.scan()
         flow = "return [...document.querySelectorAll('article')].map(e => e.dataset.row + e.dataset.flow).join()"
         shown = {}
@@ -357,14 +358,14 @@ class Page(unittest.TestCase):
             page.until("return document.querySelectorAll('article').length > 1", "rungs")
             wide = page.js("return document.documentElement.scrollWidth")
             self.assertLessEqual(wide, 390)
-            page.until("return document.querySelector('article svg').getBoundingClientRect().width < 560", "narrow drawings")
+            page.until("return document.querySelector('article svg')?.getBoundingClientRect().width < 560", "narrow drawings")
             page.click("#menu")
             page.until("return getComputedStyle(document.getElementById('side')).display !== 'none'", "the contents")
             page.js("[...document.querySelectorAll('#tree li')][3].click()")
             page.until("return getComputedStyle(document.getElementById('side')).display === 'none'", "closed again")
             page.phone(820, 1180)
             page.until("return document.querySelector('article svg') && innerWidth === 820", "a tablet")
-            page.until("const w = document.querySelector('article svg').getBoundingClientRect().width; return w > 600 && w < 820", "drawings that fit it")
+            page.until("const w = document.querySelector('article svg')?.getBoundingClientRect().width; return w > 600 && w < 820", "drawings that fit it")
             page.click("#tab-io")
             page.until("return document.querySelectorAll('#io tbody tr').length > 300", "inputs and outputs")
             shown = page.js("return [...document.querySelectorAll('#io thead th')].filter(h => h.getBoundingClientRect().right <= 820).map(h => h.textContent)")
@@ -537,6 +538,19 @@ class Machine(unittest.TestCase):
         box.send_keys(Keys.ENTER)
         self.page.until("return document.querySelector('#detail h2')?.textContent === arguments[0]", name, name)
 
+    def begin_writing(self):
+        """The lamp's name is chosen, and writing is on."""
+        self.begin()
+        self.choose("LAMP")
+        self.switch_writing_on()
+        return self.page
+
+    def begin_marking(self):
+        page = self.begin_writing()
+        page.click("#more")
+        page.click("#mark")
+        return page
+
     def switch_writing_on(self):
         self.page.click("#writing")
         self.page.js("[...document.querySelectorAll('dialog button')].find(b => b.textContent === 'Switch on').click()")
@@ -591,12 +605,7 @@ class Machine(unittest.TestCase):
 
     def test_writing_is_taken_away_while_a_dialog_is_open(self):
         """The host comes back without the right: the page switches writing off, and the dialog writes nothing."""
-        self.begin()
-        page = self.page
-        self.choose("LAMP")
-        self.switch_writing_on()
-        page.click("#more")
-        page.click("#mark")
+        page = self.begin_marking()
         page.find("dialog input").send_keys("never")
         self.host.kill()
         (self.host.home / "plc.map").write_text(machine_test.MAP)
@@ -609,12 +618,7 @@ class Machine(unittest.TestCase):
         self.assertNotIn("never", page.text("#log"))
 
     def test_marks_by_keyboard(self):
-        self.begin()
-        page = self.page
-        self.choose("LAMP")
-        self.switch_writing_on()
-        page.click("#more")
-        page.click("#mark")
+        page = self.begin_marking()
         page.keys(Keys.ENTER)
         page.until("return document.querySelector('dialog .wrong').textContent === 'A mark needs a text.'", "refused with a word")
         page.keys("here", Keys.ENTER)
@@ -669,10 +673,7 @@ class Machine(unittest.TestCase):
 
     def test_another_program_while_values_are_forced(self):
         """The list of forced values is open when another program takes over: its page has no dialog, and does not write."""
-        self.begin()
-        page = self.page
-        self.choose("LAMP")
-        self.switch_writing_on()
+        page = self.begin_writing()
         self.write("1", "Force")
         page.until("return document.getElementById('forced').textContent === '1 forced'", "forced")
         page.js("document.querySelector('#detail .write input').value = '0'")

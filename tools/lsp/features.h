@@ -33,7 +33,7 @@ json rename(const Place& place, const std::string& name);
 
 json documentSymbols(Program& program, FileId file, Unit unit);
 json workspaceSymbols(Program& program, const std::string& query, Unit unit);
-json foldingRanges(Program& program, FileId file);
+json foldingRanges(Program& program, FileId file, Unit unit);
 // Groups of five numbers, as the protocol describes; the legend is part of the server's capabilities.
 json semanticTokens(Program& program, FileId file, Unit unit);
 json semanticLegend();

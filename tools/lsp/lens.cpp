@@ -6,7 +6,6 @@
 
 #include "rtlib/nc/names/names.h"
 #include "tools/lsp/features.h"
-#include "tools/lsp/uri.h"
 #include "tools/report/place_names.h"
 
 namespace rung::lsp {
@@ -23,8 +22,8 @@ public:
   explicit UseCounts(const frontend::Analysis& analysis) {
     for (const frontend::OperandUse& operand : analysis.operands()) {
       Counts& counts = counts_[keyOf(operand.place)];
-      if (operand.access == frontend::Access::Write || operand.access == frontend::Access::ReadWrite) ++counts.writes;
-      if (operand.access == frontend::Access::Read || operand.access == frontend::Access::ReadWrite) ++counts.reads;
+      if (isWritten(operand.access)) ++counts.writes;
+      if (isRead(operand.access)) ++counts.reads;
     }
   }
   Counts of(const frontend::NamedPlace& place) const {
@@ -56,11 +55,7 @@ json codeLenses(Program& program, FileId file, Unit unit) {
     const Counts uses = counts.of(definition.place);
     const Range range = rangeOf(sources, definition.range, unit);
     const std::string title = fmt::format("{}, {}", counted(uses.writes, "write"), counted(uses.reads, "read"));
-    list.push_back({{"range", toJson(range)},
-                    {"command",
-                     {{"title", title},
-                      {"command", "rung.showReferences"},
-                      {"arguments", {uriOf(pathOf(sources, file)), toJson(range.begin)}}}}});
+    list.push_back({{"range", toJson(range)}, {"command", {{"title", title}, {"command", ""}}}});
   }
   return list;
 }

@@ -133,7 +133,7 @@ json workspaceSymbols(Program& program, const std::string& query, Unit unit) {
   return list;
 }
 
-json foldingRanges(Program& program, FileId file) {
+json foldingRanges(Program& program, FileId file, Unit /*unit*/) {
   json list = json::array();
   if (!isLadderText(program, file)) return list;
   for (const Part& part : partsOf(program.sources(), file))

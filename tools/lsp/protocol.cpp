@@ -17,12 +17,6 @@ uint32_t countFrom(const json& object, const char* key) {
   return static_cast<uint32_t>(std::min<int64_t>(found->get<int64_t>(), std::numeric_limits<int32_t>::max()));
 }
 
-const json& memberOf(const json& object, const char* key) {
-  if (!object.is_object() || !object.contains(key))
-    throw RequestError(ErrorCode::InvalidParams, std::string("there is no ") + key);
-  return object.at(key);
-}
-
 } // namespace
 
 json toJson(const Position& position) { return {{"line", position.line}, {"character", position.character}}; }
@@ -31,6 +25,12 @@ json toJson(const Range& range) { return {{"start", toJson(range.begin)}, {"end"
 json locationOf(const SourceManager& sources, SourceRange range, Unit unit) {
   return {{"uri", uriOf(pathOf(sources, sources.fileOf(range.begin)))},
           {"range", toJson(rangeOf(sources, range, unit))}};
+}
+
+const json& memberOf(const json& object, const char* key) {
+  if (!object.is_object() || !object.contains(key))
+    throw RequestError(ErrorCode::InvalidParams, std::string(key) + " is missing");
+  return object.at(key);
 }
 
 Position positionFrom(const json& value) {

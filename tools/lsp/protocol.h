@@ -39,6 +39,7 @@ json toJson(const Range& range);
 // The file of the range, and where in it.
 json locationOf(const SourceManager& sources, SourceRange range, Unit unit);
 // Throw RequestError for another value.
+const json& memberOf(const json& object, const char* key);
 Position positionFrom(const json& value);
 Range rangeFrom(const json& value);
 

@@ -15,20 +15,13 @@ json errorAnswer(const json& id, ErrorCode code, const std::string& text) {
   return {{"jsonrpc", "2.0"}, {"id", id}, {"error", {{"code", static_cast<int>(code)}, {"message", text}}}};
 }
 
-const json& member(const json& object, const char* key) {
-  const auto found = object.is_object() ? object.find(key) : object.end();
-  if (!object.is_object() || found == object.end())
-    throw RequestError(ErrorCode::InvalidParams, std::string("there is no ") + key);
-  return *found;
-}
-
 std::string textIn(const json& object, const char* key) {
-  const json& value = member(object, key);
+  const json& value = memberOf(object, key);
   if (!value.is_string()) throw RequestError(ErrorCode::InvalidParams, std::string(key) + " must be a text");
   return value.get<std::string>();
 }
 
-std::string pathIn(const json& params) { return pathOf(textIn(member(params, "textDocument"), "uri")); }
+std::string pathIn(const json& params) { return pathOf(textIn(memberOf(params, "textDocument"), "uri")); }
 
 // The first unit of the editor's list that the server has; UTF-16 if the editor has no list.
 Unit unitFrom(const json& params) {
@@ -56,29 +49,41 @@ const char* nameOf(Unit unit) {
 } // namespace
 
 const Server::Method Server::kRequests[] = {
-    {"initialize", &Server::initialize},
-    {"shutdown", &Server::shutdown},
-    {"textDocument/hover", &Server::hoverAt},
-    {"textDocument/definition", &Server::definitionAt},
-    {"textDocument/references", &Server::referencesAt},
-    {"textDocument/documentHighlight", &Server::highlightsAt},
-    {"textDocument/prepareRename", &Server::prepareRenameAt},
-    {"textDocument/rename", &Server::renameAt},
-    {"textDocument/completion", &Server::completionAt},
-    {"textDocument/documentSymbol", &Server::symbolsIn},
-    {"workspace/symbol", &Server::symbolsOfAll},
-    {"textDocument/foldingRange", &Server::foldsIn},
-    {"textDocument/semanticTokens/full", &Server::tokensIn},
-    {"textDocument/formatting", &Server::formatted},
-    {"textDocument/codeAction", &Server::actionsAt},
-    {"textDocument/codeLens", &Server::lensesIn},
-    {"textDocument/inlayHint", &Server::hintsIn},
+    {"initialize", [](Server& server, const json& params) { return server.initialize(params); }},
+    {"shutdown", [](Server& server, const json&) { return server.shutdown(); }},
+    {"textDocument/hover", [](Server& server, const json& params) { return hover(server.placeOf(params)); }},
+    {"textDocument/definition", [](Server& server, const json& params) { return definition(server.placeOf(params)); }},
+    {"textDocument/references",
+     [](Server& server, const json& params) {
+       return references(server.placeOf(params), memberOf(params, "context").value("includeDeclaration", true));
+     }},
+    {"textDocument/documentHighlight",
+     [](Server& server, const json& params) { return highlights(server.placeOf(params)); }},
+    {"textDocument/prepareRename",
+     [](Server& server, const json& params) { return prepareRename(server.placeOf(params)); }},
+    {"textDocument/rename",
+     [](Server& server, const json& params) { return rename(server.placeOf(params), textIn(params, "newName")); }},
+    {"textDocument/completion", [](Server& server, const json& params) { return completion(server.placeOf(params)); }},
+    {"textDocument/documentSymbol",
+     [](Server& server, const json& params) { return server.ofFile(params, documentSymbols); }},
+    {"workspace/symbol",
+     [](Server& server, const json& params) { return server.symbolsOfAll(textIn(params, "query")); }},
+    {"textDocument/foldingRange",
+     [](Server& server, const json& params) { return server.ofFile(params, foldingRanges); }},
+    {"textDocument/semanticTokens/full",
+     [](Server& server, const json& params) { return server.ofFile(params, semanticTokens); }},
+    {"textDocument/formatting", [](Server& server, const json& params) { return server.ofFile(params, formatting); }},
+    {"textDocument/codeLens", [](Server& server, const json& params) { return server.ofFile(params, codeLenses); }},
+    {"textDocument/codeAction", [](Server& server, const json& params) { return server.ofSpan(params, codeActions); }},
+    {"textDocument/inlayHint", [](Server& server, const json& params) { return server.ofSpan(params, inlayHints); }},
 };
 
-const Server::Method Server::kNotifications[] = {
-    {"textDocument/didOpen", &Server::opened},           {"textDocument/didChange", &Server::changed},
-    {"textDocument/didClose", &Server::closed},          {"textDocument/didSave", &Server::saved},
-    {"workspace/didChangeWatchedFiles", &Server::saved},
+const Server::Notice Server::kNotices[] = {
+    {"textDocument/didOpen", [](Server& server, const json& params) { server.opened(params); }},
+    {"textDocument/didChange", [](Server& server, const json& params) { server.changed(params); }},
+    {"textDocument/didClose", [](Server& server, const json& params) { server.closed(params); }},
+    {"textDocument/didSave", [](Server& server, const json&) { server.checkAll(); }},
+    {"workspace/didChangeWatchedFiles", [](Server& server, const json&) { server.checkAll(); }},
 };
 
 int Server::run() {
@@ -118,12 +123,12 @@ void Server::serve(const json& message) {
 
 json Server::answer(const std::string& method, const json& params) {
   const auto found = std::ranges::find(kRequests, method, &Method::name);
-  if (found == std::end(kRequests)) throw RequestError(ErrorCode::MethodNotFound, "there is no method " + method);
+  if (found == std::end(kRequests)) throw RequestError(ErrorCode::MethodNotFound, "unknown method " + method);
   if (isShutDown_) throw RequestError(ErrorCode::InvalidRequest, "the server was shut down");
   if (isInitialized_ == (method == "initialize"))
     throw RequestError(isInitialized_ ? ErrorCode::InvalidRequest : ErrorCode::NotInitialized,
                        isInitialized_ ? "the server is initialized" : "the first request must be initialize");
-  return (this->*found->handler)(params);
+  return found->answer(*this, params);
 }
 
 // Notifications have no answer that could say what is wrong with them.
@@ -132,10 +137,10 @@ void Server::notice(const std::string& method, const json& params) {
     isOver_ = true;
     return;
   }
-  const auto found = std::ranges::find(kNotifications, method, &Method::name);
-  if (found == std::end(kNotifications) || !isInitialized_) return;
+  const auto found = std::ranges::find(kNotices, method, &Notice::name);
+  if (found == std::end(kNotices) || !isInitialized_) return;
   try {
-    (this->*found->handler)(params);
+    found->take(*this, params);
   } catch (const RequestError&) {
   } catch (const json::exception&) {
   }
@@ -168,45 +173,44 @@ json Server::initialize(const json& params) {
             {"codeActionProvider", {{"codeActionKinds", {"quickfix"}}}}}}};
 }
 
-json Server::shutdown(const json& /*params*/) {
+json Server::shutdown() {
   isShutDown_ = true;
   return nullptr;
 }
 
-json Server::opened(const json& params) {
-  const json& document = member(params, "textDocument");
+void Server::opened(const json& params) {
+  const json& document = memberOf(params, "textDocument");
   const std::string path = pathOf(textIn(document, "uri"));
   workspace_.open(path, textIn(document, "text"));
   versions_[path] = document.value("version", json());
-  return saved(params);
+  checkAll();
 }
 
-json Server::changed(const json& params) {
+void Server::changed(const json& params) {
   const std::string path = pathIn(params);
   if (workspace_.textOf(path) == nullptr) throw RequestError(ErrorCode::InvalidParams, path + " is not open");
-  versions_[path] = member(params, "textDocument").value("version", json());
-  for (const json& change : member(params, "contentChanges")) {
+  versions_[path] = memberOf(params, "textDocument").value("version", json());
+  for (const json& change : memberOf(params, "contentChanges")) {
     const std::string text = textIn(change, "text");
     if (!change.contains("range"))
       workspace_.open(path, text);
     else
       workspace_.change(path, rangeFrom(change["range"]), text, unit_);
   }
-  return saved(params);
+  checkAll();
 }
 
-json Server::closed(const json& params) {
+void Server::closed(const json& params) {
   const std::string path = pathIn(params);
   workspace_.close(path);
   versions_.erase(path);
-  return saved(params);
+  checkAll();
 }
 
 // Files on the disk are others, or open texts are.
-json Server::saved(const json& /*params*/) {
+void Server::checkAll() {
   workspace_.changed();
   for (std::string& path : workspace_.openPaths()) unchecked_.insert(std::move(path));
-  return nullptr;
 }
 
 std::pair<Program&, FileId> Server::fileOf(const json& params) {
@@ -219,23 +223,23 @@ std::pair<Program&, FileId> Server::fileOf(const json& params) {
 
 Place Server::placeOf(const json& params) {
   const auto [program, file] = fileOf(params);
-  return {program, file, posOf(program.sources(), file, positionFrom(member(params, "position")), unit_), unit_};
+  return {program, file, posOf(program.sources(), file, positionFrom(memberOf(params, "position")), unit_), unit_};
 }
 
-json Server::referencesAt(const json& params) {
-  const json& context = member(params, "context");
-  return references(placeOf(params), context.value("includeDeclaration", true));
-}
-
-json Server::renameAt(const json& params) { return rename(placeOf(params), textIn(params, "newName")); }
-
-json Server::symbolsIn(const json& params) {
+json Server::ofFile(const json& params, json (*answer)(Program&, FileId, Unit)) {
   const auto [program, file] = fileOf(params);
-  return documentSymbols(program, file, unit_);
+  return answer(program, file, unit_);
 }
 
-json Server::symbolsOfAll(const json& params) {
-  const std::string query = textIn(params, "query");
+json Server::ofSpan(const json& params, json (*answer)(const Place& begin, SourcePos end)) {
+  const Range range = rangeFrom(memberOf(params, "range"));
+  const auto [program, file] = fileOf(params);
+  const SourceManager& sources = program.sources();
+  return answer({program, file, posOf(sources, file, range.begin, unit_), unit_},
+                posOf(sources, file, range.end, unit_));
+}
+
+json Server::symbolsOfAll(const std::string& query) {
   std::set<const Program*> seen;
   json list = json::array();
   for (const std::string& path : workspace_.openPaths()) {
@@ -244,43 +248,6 @@ json Server::symbolsOfAll(const json& params) {
     for (json& symbol : workspaceSymbols(program, query, unit_)) list.push_back(std::move(symbol));
   }
   return list;
-}
-
-json Server::foldsIn(const json& params) {
-  const auto [program, file] = fileOf(params);
-  return foldingRanges(program, file);
-}
-
-json Server::tokensIn(const json& params) {
-  const auto [program, file] = fileOf(params);
-  return semanticTokens(program, file, unit_);
-}
-
-json Server::formatted(const json& params) {
-  const auto [program, file] = fileOf(params);
-  return formatting(program, file, unit_);
-}
-
-std::pair<Place, SourcePos> Server::spanOf(const json& params) {
-  const Range range = rangeFrom(member(params, "range"));
-  const auto [program, file] = fileOf(params);
-  const SourceManager& sources = program.sources();
-  return {{program, file, posOf(sources, file, range.begin, unit_), unit_}, posOf(sources, file, range.end, unit_)};
-}
-
-json Server::actionsAt(const json& params) {
-  const auto [begin, end] = spanOf(params);
-  return codeActions(begin, end);
-}
-
-json Server::hintsIn(const json& params) {
-  const auto [begin, end] = spanOf(params);
-  return inlayHints(begin, end);
-}
-
-json Server::lensesIn(const json& params) {
-  const auto [program, file] = fileOf(params);
-  return codeLenses(program, file, unit_);
 }
 
 void Server::checkWhileIdle() {

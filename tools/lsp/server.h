@@ -20,13 +20,16 @@ public:
   int run();
 
 private:
-  using Handler = json (Server::*)(const json& params);
   struct Method {
     std::string_view name;
-    Handler handler;
+    json (*answer)(Server& server, const json& params);
+  };
+  struct Notice {
+    std::string_view name;
+    void (*take)(Server& server, const json& params);
   };
   static const Method kRequests[];
-  static const Method kNotifications[];
+  static const Notice kNotices[];
 
   void take(const std::string& message);
   void serve(const json& message);
@@ -35,33 +38,19 @@ private:
   void send(const json& message);
 
   json initialize(const json& params);
-  json shutdown(const json& params);
-  json opened(const json& params);
-  json changed(const json& params);
-  json closed(const json& params);
-  json saved(const json& params);
-
-  json hoverAt(const json& params) { return hover(placeOf(params)); }
-  json definitionAt(const json& params) { return definition(placeOf(params)); }
-  json referencesAt(const json& params);
-  json highlightsAt(const json& params) { return highlights(placeOf(params)); }
-  json prepareRenameAt(const json& params) { return prepareRename(placeOf(params)); }
-  json renameAt(const json& params);
-  json completionAt(const json& params) { return completion(placeOf(params)); }
-  json symbolsIn(const json& params);
-  json symbolsOfAll(const json& params);
-  json foldsIn(const json& params);
-  json tokensIn(const json& params);
-  json formatted(const json& params);
-  json actionsAt(const json& params);
-  json lensesIn(const json& params);
-  json hintsIn(const json& params);
+  json shutdown();
+  json symbolsOfAll(const std::string& query);
+  void opened(const json& params);
+  void changed(const json& params);
+  void closed(const json& params);
+  void checkAll();
 
   // Throw RequestError for a file that no program has.
   Place placeOf(const json& params);
   std::pair<Program&, FileId> fileOf(const json& params);
-  // The beginning and the end of its `range`.
-  std::pair<Place, SourcePos> spanOf(const json& params);
+  json ofFile(const json& params, json (*answer)(Program& program, FileId file, Unit unit));
+  // With the beginning and the end of its `range`.
+  json ofSpan(const json& params, json (*answer)(const Place& begin, SourcePos end));
 
   // Checks programs of open files while the editor says nothing.
   void checkWhileIdle();

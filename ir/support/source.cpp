@@ -95,9 +95,9 @@ SourceManager::SourceManager(SourceManager&&) noexcept = default;
 SourceManager& SourceManager::operator=(SourceManager&&) noexcept = default;
 
 Result<FileId> SourceManager::addFile(const std::string& path) {
-  if (!open_.empty())
-    if (const auto found = open_.find(std::filesystem::absolute(path).lexically_normal().string());
-        found != open_.end())
+  if (open_ != nullptr)
+    if (const auto found = open_->find(std::filesystem::absolute(path).lexically_normal().string());
+        found != open_->end())
       return addOpen(path, found->second);
   Result<std::string> text = texts_ ? textOf(*texts_, path) : readAll(path);
   if (!text) return text.failure();

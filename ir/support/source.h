@@ -60,8 +60,8 @@ public:
   /// detects.
   void setEncoding(std::string name) { encoding_ = std::move(name); }
   /// Texts in UTF-8 that an editor has open, by the absolute paths of their files: addFile takes them instead of what
-  /// is on the disk.
-  void setOpenTexts(std::map<std::string, std::string> texts) { open_ = std::move(texts); }
+  /// is on the disk. They must outlive its calls.
+  void setOpenTexts(const std::map<std::string, std::string>& texts) { open_ = &texts; }
   /// Reads a file. Its text is converted to UTF-8 and ends at a DOS end-of-file mark. Fails if it cannot be read or if
   /// the sources have more than 256 MB in all.
   Result<FileId> addFile(const std::string& path);
@@ -119,11 +119,10 @@ public:
 private:
   struct File;
   const File& file(FileId id) const;
-
-  std::optional<std::map<std::string, std::string>> texts_; // nothing: files of the file system
   FileId addOpen(const std::string& path, const std::string& text);
 
-  std::map<std::string, std::string> open_;
+  std::optional<std::map<std::string, std::string>> texts_;  // nothing: files of the file system
+  const std::map<std::string, std::string>* open_ = nullptr; // null: none
   std::vector<std::unique_ptr<File>> files_;
   std::string encoding_;
   uint32_t nextBase_ = 1;

@@ -23,7 +23,8 @@ enum class Expected : uint8_t { Statement, Instruction, Operand };
 class Completion {
 public:
   Completion(const Place& place, std::string_view before)
-      : program_(place.program), dialect_(*place.program.dialect()), word_(text::lower(wordBefore(before))),
+      : program_(place.program), isLadderText_(isLadderText(place.program, place.file)),
+        dialect_(*place.program.dialect()), word_(text::lower(wordBefore(before))),
         expected_(expectedAfter(before.substr(0, before.size() - word_.size()))) {}
 
   json items() {
@@ -51,13 +52,9 @@ private:
     const size_t last = before.find_last_not_of(" \t");
     const bool drawn = dialect_.findBox != nullptr && before.find('|') != std::string_view::npos;
     if (drawn) return last != std::string_view::npos && before[last] == '{' ? Expected::Instruction : Expected::Operand;
-    if (last == std::string_view::npos) return isLadderText() ? Expected::Statement : Expected::Instruction;
+    if (last == std::string_view::npos) return isLadderText_ ? Expected::Statement : Expected::Instruction;
     return Expected::Operand;
   }
-  bool isLadderText() const {
-    return program_.sources().fileCount() != 0 && program_.sources().name(FileId{0}).ends_with(".lad");
-  }
-
   void add(std::string_view name, std::string_view detail, std::string_view text, ItemKind kind) {
     if (!text::lower(name).starts_with(word_) || !names_.insert(std::string(name)).second) return;
     if (items_.size() >= kMost) {
@@ -88,6 +85,7 @@ private:
   }
 
   Program& program_;
+  const bool isLadderText_;
   const frontend::Dialect& dialect_;
   std::string word_; // in lower case
   Expected expected_;

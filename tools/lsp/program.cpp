@@ -13,7 +13,7 @@ namespace {
 
 compiler::CompileRequest requestOf(const compiler::Project& project, SourceManager& sources) {
   compiler::CompileRequest request{.dialect = project.dialect, .name = project.name};
-  for (const compiler::Setting& setting : project.config) request.options.config[setting.key] = setting.value;
+  request.options.config = compiler::configOf(project);
   request.options.includePaths = project.includePaths;
   request.options.configPlaces = compiler::placesOf(project, request.options.config, sources);
   return request;

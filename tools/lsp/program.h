@@ -28,6 +28,7 @@ public:
   const std::string& path() const { return path_; }
   bool isProject() const { return isProject_; }
 
+  // `open` must outlive the program, or its next check.
   void check(const OpenTexts& open);
   // How often it was checked.
   uint64_t checks() const { return checks_; }
@@ -43,7 +44,7 @@ public:
   // Null if not even the dialect is known.
   const frontend::Dialect* dialect() const { return dialect_; }
   const frontend::Analysis* analysis() const { return text_ == nullptr ? nullptr : &text_->analysis(); }
-  // Nothing while there is no analysis.
+  // Nothing without an analysis.
   std::optional<source::CheckedText> text();
   // By the path of a file; nothing if the program does not have it.
   std::optional<FileId> fileOf(const std::string& path) const;

@@ -16,7 +16,7 @@ const frontend::Definition& renamed(const Place& place) {
   const auto subject = analysis == nullptr ? std::nullopt : subjectAt(*analysis, place.at);
   if (!subject || subject->definition == nullptr)
     throw RequestError(ErrorCode::RequestFailed,
-                       "there is no name here: addresses, instructions and labels stay as they are");
+                       "this is not a name: addresses, instructions and labels cannot be renamed");
   if (!subject->definition->range.valid())
     throw RequestError(ErrorCode::RequestFailed, fmt::format("{} is a name of the control", subject->definition->name));
   return *subject->definition;

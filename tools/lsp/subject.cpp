@@ -32,10 +32,6 @@ std::optional<Subject> subjectIn(const Analysis& analysis, SourcePos at) {
   return std::nullopt;
 }
 
-bool isWritten(frontend::Access access) {
-  return access == frontend::Access::Write || access == frontend::Access::ReadWrite;
-}
-
 // Of the operands: that of a name has the range of the name, without an index.
 void addOperands(const Analysis& analysis, const NamedPlace& place, std::vector<Occurrence>& found) {
   for (const frontend::OperandUse& operand : analysis.operands()) {
@@ -50,16 +46,11 @@ void addTargets(const Analysis& analysis, const frontend::TargetUse& target, std
       found.push_back({.range = use.range, .declares = use.defines});
 }
 
-bool writesAt(const Analysis& analysis, SourceRange name) {
-  const frontend::OperandUse* operand = analysis.operandAt(name.begin);
-  return operand != nullptr && operand->range.begin == name.begin && isWritten(operand->access);
-}
-
 void addName(const Analysis& analysis, const Definition& definition, std::vector<Occurrence>& found) {
   const auto index = static_cast<uint32_t>(&definition - analysis.definitions().data());
   if (definition.range.valid()) found.push_back({.range = definition.range, .declares = true});
   for (const frontend::NameUse& use : analysis.names())
-    if (use.definition == index) found.push_back({.range = use.range, .writes = writesAt(analysis, use.range)});
+    if (use.definition == index) found.push_back({.range = use.range, .writes = isWrittenAt(analysis, use.range)});
 }
 
 // Of those that begin at one place, the first: the name of an operand with an index.
@@ -71,6 +62,11 @@ std::vector<Occurrence> ordered(std::vector<Occurrence> found) {
 }
 
 } // namespace
+
+bool isWrittenAt(const Analysis& analysis, SourceRange name) {
+  const frontend::OperandUse* operand = analysis.operandAt(name.begin);
+  return operand != nullptr && operand->range.begin == name.begin && isWritten(operand->access);
+}
 
 std::optional<Subject> subjectAt(const Analysis& analysis, SourcePos at) {
   std::optional<Subject> found = subjectIn(analysis, at);

@@ -19,6 +19,9 @@ struct Subject {
 // Also of a word that ends there, as a cursor after its last character is at it. Nothing: a word of another kind.
 std::optional<Subject> subjectAt(const frontend::Analysis& analysis, SourcePos at);
 
+// Whether the name is an operand that its instruction writes.
+bool isWrittenAt(const frontend::Analysis& analysis, SourceRange name);
+
 struct Occurrence {
   SourceRange range;
   bool declares = false;

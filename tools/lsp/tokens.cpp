@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "tools/lsp/features.h"
+#include "tools/lsp/subject.h"
 
 namespace rung::lsp {
 namespace {
@@ -11,6 +12,7 @@ namespace {
 enum class TokenKind : uint8_t { Function, Variable, Constant, Address, Target };
 constexpr std::array<const char*, 5> kKinds{"function", "variable", "enumMember", "property", "method"};
 enum Modifier : uint32_t { kDeclaration = 1, kReadonly = 2, kControl = 4, kWritten = 8 };
+constexpr uint32_t modifierIf(bool holds, Modifier modifier) { return holds ? uint32_t{modifier} : 0; }
 constexpr std::array<const char*, 4> kModifiers{"declaration", "readonly", "defaultLibrary", "modification"};
 
 struct Token {
@@ -28,13 +30,15 @@ public:
     for (const frontend::Definition& definition : analysis_.definitions())
       if (isHere(definition.range)) add(definition.range, definition, kDeclaration);
     for (const frontend::NameUse& use : analysis_.names())
-      if (isHere(use.range)) add(use.range, analysis_.definitions()[use.definition], writtenAt(use.range));
+      if (isHere(use.range))
+        add(use.range, analysis_.definitions()[use.definition],
+            modifierIf(isWrittenAt(analysis_, use.range), kWritten));
     for (const frontend::OperandUse& operand : analysis_.operands())
       if (operand.base == frontend::kNoDefinition && isHere(operand.range))
-        tokens_.push_back({withoutIndex(operand), TokenKind::Address, isWritten(operand) ? uint32_t{kWritten} : 0});
+        tokens_.push_back({withoutIndex(operand), TokenKind::Address, modifierIf(isWritten(operand.access), kWritten)});
     for (const frontend::TargetUse& target : analysis_.targets())
       if (isHere(target.range))
-        tokens_.push_back({target.range, TokenKind::Target, target.defines ? uint32_t{kDeclaration} : 0});
+        tokens_.push_back({target.range, TokenKind::Target, modifierIf(target.defines, kDeclaration)});
     for (const frontend::InstructionUse& use : analysis_.instructions())
       if (isHere(use.range)) tokens_.push_back({use.range, TokenKind::Function});
     std::ranges::stable_sort(tokens_, {}, [](const Token& token) { return token.range.begin; });
@@ -43,18 +47,11 @@ public:
 
 private:
   bool isHere(SourceRange range) const { return range.valid() && sources_.fileOf(range.begin) == file_; }
-  static bool isWritten(const frontend::OperandUse& operand) {
-    return operand.access == frontend::Access::Write || operand.access == frontend::Access::ReadWrite;
-  }
-  uint32_t writtenAt(SourceRange name) const {
-    const frontend::OperandUse* operand = analysis_.operandAt(name.begin);
-    return operand != nullptr && operand->range.begin == name.begin && isWritten(*operand) ? uint32_t{kWritten} : 0;
-  }
   void add(SourceRange range, const frontend::Definition& definition, uint32_t modifiers) {
     if (definition.isConstant())
       tokens_.push_back({range, TokenKind::Constant, modifiers | kReadonly});
     else
-      tokens_.push_back({range, TokenKind::Variable, modifiers | (definition.range.valid() ? 0u : uint32_t{kControl})});
+      tokens_.push_back({range, TokenKind::Variable, modifiers | modifierIf(!definition.range.valid(), kControl)});
   }
   SourceRange withoutIndex(const frontend::OperandUse& operand) const {
     const auto index = static_cast<uint32_t>(operand.computed.size());

@@ -790,7 +790,6 @@ private:
       const PartFacts& facts = factsOf(at);
       for (size_t r = facts.flow ? facts.flow->runs().size() : 0; r-- > 0;)
         if (facts.flow->runs()[r].lowered == lowered) return {&facts, r};
-      if (at == 0) break;
     }
     return {};
   }
@@ -865,9 +864,9 @@ private:
   size_t count_ = 0;
 };
 
-// ---- text --------------------------------------------------------------------------------------------------------
-
 } // namespace
+
+// ---- text --------------------------------------------------------------------------------------------------------
 
 std::string kindText(const Reason& reason) {
   switch (reason.kind) {

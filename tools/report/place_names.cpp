@@ -78,8 +78,8 @@ std::string signalAt(const rung_program& program, const Ref& place) {
   if (signals == nullptr || place.kind != RefKind::Bit) return {};
   const std::string_view area = program.spaces[place.space].name;
   const auto found = std::ranges::find_if(*signals, [&](const nc::Signal& signal) {
-    return signal.type == nc::SignalType::Bit && signal.count == 1 && signal.area == area &&
-           signal.byteOffset == place.byte && signal.bit == place.bit;
+    return signal.byteOffset == place.byte && signal.bit == place.bit && signal.type == nc::SignalType::Bit &&
+           signal.count == 1 && signal.area == area;
   });
   return found == signals->end() ? std::string() : found->symbol;
 }

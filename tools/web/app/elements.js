@@ -45,7 +45,7 @@ export function select(label, choices, chosen) {
   return box;
 }
 
-// A table without rows. `heads`: [class of the column, what stands in its head].
+// A table without rows. `heads`: [class of the column, what is in its head].
 export function tableOf(heads, caption) {
   const table = make('table'), row = make('tr'), head = make('thead'), rows = make('tbody');
   if (caption) table.append(make('caption', '', caption));

@@ -101,8 +101,8 @@ std::optional<Compiled> compile(SourceManager& sources, std::span<const FileId> 
   auto program = out.dialect->check(sources, files, options, diagnostics);
   ended("check");
   if (!diagnostics.hasErrors()) out.module = program->build();
+  if (request.source != nullptr) *request.source = std::move(program);
   if (out.module == nullptr || diagnostics.hasErrors()) return std::nullopt;
-  if (request.keepSource) out.source = std::move(program);
   for (const LayoutClaim& claim : request.layouts) addClaim(*out.module, claim);
   ir::orderOperations(*out.module, options.marks, options.given);
   ir::readSourcesOfLatches(*out.module);

@@ -34,11 +34,12 @@ struct CompileRequest {
   bool marks = false;               // mark contacts and coils
   bool compare = false;             // keep what a comparison of the module as built with that of another version needs
   bool optimise = true;
-  bool keepBuilt = false;  // for recompilation (recompiler.h)
-  bool keepSource = false; // keep the front end's analysis of the text
+  bool keepBuilt = false; // for recompilation (recompiler.h)
   ir::LayoutOptions layout;
   std::vector<LayoutClaim> layouts;
-  const ir::BranchCounts* branches = nullptr;        // of earlier runs, for the layout of the code; null: none
+  const ir::BranchCounts* branches = nullptr; // of earlier runs, for the layout of the code; null: none
+  // If not null: receives the checked text, also of a program with errors. The sources must outlive it.
+  std::unique_ptr<const frontend::CheckedProgram>* source = nullptr;
   std::function<void(std::string_view stage)> ended; // called at the end of each stage, for measurements; may be empty
 };
 
@@ -57,10 +58,8 @@ struct Compiled {
   ir::GivenNumbers given;           // of `built`, for a comparison
   frontend::CompileOptions options; // of the request
   std::unique_ptr<ir::Uses> uses;   // of the module as built
-  // If requested, of the program as built, for its analysis only; the sources must outlive it.
-  std::unique_ptr<const frontend::CheckedProgram> source;
-  uint64_t codeHash = 0; // ir::hashOf(module)
-  size_t warnings = 0;   // number of warnings reported
+  uint64_t codeHash = 0;            // ir::hashOf(module)
+  size_t warnings = 0;              // number of warnings reported
 };
 
 // Adds the files of a command line; "-" reads standard input. `config`: of the dialect; its `encoding` applies to files

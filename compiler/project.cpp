@@ -264,6 +264,12 @@ std::optional<Project> load(SourceManager& sources, const std::string& file, Dia
   return project;
 }
 
+std::map<std::string, std::string> configOf(const Project& project) {
+  std::map<std::string, std::string> config;
+  for (const Setting& setting : project.config) config[setting.key] = setting.value;
+  return config;
+}
+
 std::map<std::string, SourceRange> placesOf(const Project& project, const std::map<std::string, std::string>& config,
                                             SourceManager& sources) {
   std::map<std::string, SourceRange> places;

@@ -37,6 +37,9 @@ struct Project {
 // Reports every mistake in the file and every missing file. Nothing if there are errors.
 std::optional<Project> load(SourceManager& sources, const std::string& file, Diagnostics& diagnostics);
 
+// Its configuration by keys.
+std::map<std::string, std::string> configOf(const Project& project);
+
 // For a project file that was read into another SourceManager: the positions in this one of the values that `config`
 // has from it.
 std::map<std::string, SourceRange> placesOf(const Project& project, const std::map<std::string, std::string>& config,

@@ -131,6 +131,7 @@ public:
   std::span<const NameUse> names() const { return names_.all(); }
   std::span<const OperandUse> operands() const { return operands_.all(); }
   std::span<const TargetUse> targets() const { return targets_.all(); }
+  std::span<const InstructionUse> instructions() const { return instructions_.all(); }
   // The operand with exactly this range; null if it names no place, in memory or in the program.
   const OperandUse* operandAt(SourceRange range) const { return operands_.at(range); }
   const TargetUse* targetAt(SourceRange range) const { return targets_.at(range); }
@@ -142,6 +143,7 @@ public:
   const InstructionUse* instructionAt(SourcePos position) const { return instructions_.at(position); }
   // The meaning of a name that is used there.
   const Definition* nameAt(SourcePos position) const { return definitionOf(names_.at(position)); }
+  const NameUse* nameUseAt(SourcePos position) const { return names_.at(position); }
   // The definition whose name is declared there.
   const Definition* declaredAt(SourcePos position) const { return definitionOf(declared_.at(position)); }
 

@@ -29,6 +29,9 @@ struct FixedList {
 
 enum class Access : uint8_t { Read, Write, ReadWrite, None };
 
+constexpr bool isRead(Access access) { return access == Access::Read || access == Access::ReadWrite; }
+constexpr bool isWritten(Access access) { return access == Access::Write || access == Access::ReadWrite; }
+
 // The access to an operand, in words.
 constexpr std::string_view nameOf(Access access) {
   constexpr std::string_view kNames[] = {"read", "written", "read and written", "named"};

@@ -139,12 +139,6 @@ Uses::RungFacts Uses::factsOf(const Module& module, const Rung& rung) {
     if (op.resultCount == 1) definitions[op.result.index] = &op;
     if (const auto use = useOf(module, op))
       uses.add({*use, use->computed ? elementOf(module, rung, definitions, op, *use) : use->place, kept.contains(op)});
-    if (opInfo(op.code).attr != Attr::Slot) continue;
-    const SlotId slot{op.ref};
-    if (op.code == OpCode::SlotStore)
-      addOnce(facts.slotsWritten, slot);
-    else if (!contains(facts.slotsWritten, slot))
-      addOnce(facts.slotsRead, slot);
   }
   uses.settle();
   const Transfer& transfer = rung.transfer;
@@ -225,21 +219,6 @@ std::optional<BitRange> Uses::copiedWhole(const BitRange& place) const {
 
 bool Uses::isCleared(const BitRange& place) const { return anyMeets(cleared_, place); }
 bool Uses::isRetained(const BitRange& place) const { return anyMeets(retained_, place); }
-
-std::vector<uint32_t> Uses::registersFrom(uint32_t rung) const {
-  std::vector<uint32_t> sources;
-  std::vector<SlotId> needed = rungs_[rung].slotsRead;
-  for (uint32_t r = rung; r-- > firstOf(rung) && !needed.empty();) {
-    const RungFacts& facts = rungs_[r];
-    const size_t before = needed.size();
-    std::erase_if(needed, [&](SlotId slot) { return contains(facts.slotsWritten, slot); });
-    if (needed.size() == before) continue;
-    sources.push_back(r);
-    if (facts.kind == TransferKind::Call) break;
-    for (SlotId slot : facts.slotsRead) addOnce(needed, slot);
-  }
-  return sources;
-}
 
 // Whether the rung jumps to a rung after `above` and up to `upTo`.
 bool Uses::jumpsBetween(uint32_t rung, uint32_t above, uint32_t upTo) const {

@@ -46,9 +46,6 @@ public:
   // Whether a part of it is retained through power-off.
   bool isRetained(const BitRange& place) const;
 
-  // Earlier rungs of the routine that pass a register to this one, the last first. A rung that calls a routine ends the
-  // list, because that routine may have changed the registers.
-  std::vector<uint32_t> registersFrom(uint32_t rung) const;
   // Rungs of the routine whose transfer decides whether this rung is skipped; the nearest first.
   std::vector<uint32_t> decidersOf(uint32_t rung) const;
   // Rungs that call the rung's routine, ascending.
@@ -59,8 +56,6 @@ private:
   struct RungFacts {
     RoutineId routine;
     std::vector<RungUse> uses;
-    std::vector<SlotId> slotsRead; // before the rung stores them
-    std::vector<SlotId> slotsWritten;
     TransferKind kind = TransferKind::Next;
     bool conditional = false;
     RoutineId callee;

@@ -95,6 +95,10 @@ SourceManager::SourceManager(SourceManager&&) noexcept = default;
 SourceManager& SourceManager::operator=(SourceManager&&) noexcept = default;
 
 Result<FileId> SourceManager::addFile(const std::string& path) {
+  if (open_ != nullptr)
+    if (const auto found = open_->find(std::filesystem::absolute(path).lexically_normal().string());
+        found != open_->end())
+      return addOpen(path, found->second);
   Result<std::string> text = texts_ ? textOf(*texts_, path) : readAll(path);
   if (!text) return text.failure();
   if (text.value().size() + nextBase_ > kMostText) return failure("the program has more than 256 MB of sources");
@@ -127,6 +131,19 @@ FileId SourceManager::addBytes(std::string name, std::string bytes) {
   added.encoding = std::move(encoding);
   added.undecoded = std::move(undecoded);
   added.afterEnd = std::move(afterEnd);
+  return id;
+}
+
+// The editor has decoded it, by whatever the file declares.
+FileId SourceManager::addOpen(const std::string& path, const std::string& text) {
+  const std::optional<EncodingLine> line = encodingLine(text);
+  const std::string encoding = line ? line->name : encoding_;
+  const std::string_view used = text::upToEndOfFile(text);
+  const FileId id = addBuffer(path, std::string(used));
+  File& added = *files_[id.index];
+  if (line && !knowsEncoding(line->name)) added.undecoded = Undecoded{line->name, false, line->offset};
+  added.encoding = encoding;
+  added.afterEnd = text.substr(used.size());
   return id;
 }
 

@@ -59,6 +59,9 @@ public:
   /// The encoding of files that do not declare theirs (encodingLine); "", the default: UTF-8, or what the dialect
   /// detects.
   void setEncoding(std::string name) { encoding_ = std::move(name); }
+  /// Texts in UTF-8 that an editor has open, by the absolute paths of their files: addFile takes them instead of what
+  /// is on the disk. They must outlive its calls.
+  void setOpenTexts(const std::map<std::string, std::string>& texts) { open_ = &texts; }
   /// Reads a file. Its text is converted to UTF-8 and ends at a DOS end-of-file mark. Fails if it cannot be read or if
   /// the sources have more than 256 MB in all.
   Result<FileId> addFile(const std::string& path);
@@ -116,8 +119,10 @@ public:
 private:
   struct File;
   const File& file(FileId id) const;
+  FileId addOpen(const std::string& path, const std::string& text);
 
-  std::optional<std::map<std::string, std::string>> texts_; // nothing: files of the file system
+  std::optional<std::map<std::string, std::string>> texts_;  // nothing: files of the file system
+  const std::map<std::string, std::string>* open_ = nullptr; // null: none
   std::vector<std::unique_ptr<File>> files_;
   std::string encoding_;
   uint32_t nextBase_ = 1;

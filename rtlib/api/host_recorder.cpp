@@ -20,6 +20,8 @@ namespace {
 // Room for the events of one part: each input with an event of its own, and what else there may be.
 constexpr size_t kPartRoom = 262'144;
 
+constexpr size_t kReserve = 1024; // bytes that a state may grow by until the next one
+
 } // namespace
 
 void putConfiguration(EventWriter& writer, const Configured& of) noexcept {
@@ -32,6 +34,11 @@ size_t roomFor(const std::vector<Configured>& all) noexcept {
   size_t room = 0;
   for (const Configured& one : all) room += kEach + one.text.size();
   return room;
+}
+
+size_t stateSize(const rung_instance& instance) noexcept {
+  core::Saver counted({});
+  return instance.wasOn && saveState(instance, counted, Waiting::LeftOut) ? counted.size() : 0;
 }
 
 // Ones written to a block of zeros are the bits of the cell.
@@ -48,7 +55,7 @@ std::unique_ptr<runtime::InputBits> inputBits(const rung_instance& instance, con
 
 HostRecorder::HostRecorder(rung_instance& instance, const runtime::RecorderOptions& options)
     : instance_(instance), running_(instance.running), stream_(options, kPartRoom),
-      inputs_(inputBits(instance, instance.now())) {
+      inputs_(inputBits(instance, instance.now())), stateBytes_(stateSize(instance) + kReserve) {
   running_.services().setObserver(
       [](void* self, const core::ServiceReply& reply) { static_cast<HostRecorder*>(self)->replied(reply); }, this);
 }
@@ -69,7 +76,6 @@ void HostRecorder::programChanged(std::unique_ptr<runtime::InputBits>& bits) noe
 
 // The size is known when it is written. If there is too little room for it, false, and `stateBytes_` is enough.
 bool HostRecorder::putWhole(EventWriter& writer) noexcept {
-  constexpr size_t kReserve = 1024;
   writer.put(Event::State);
   EventWriter size = writer;
   writer.advance(EventWriter::kPadded);
@@ -95,9 +101,9 @@ void HostRecorder::putState() noexcept {
 }
 
 bool HostRecorder::putStateInto(size_t reserved) noexcept {
-  constexpr size_t kOther = 256, kForce = 12; // of the other events
-  const size_t room =
-      reserved + kOther + kForce * running_.forcedBits().size() + inputs_->listed() + roomFor(instance_.configured);
+  constexpr size_t kOther = 256; // of the other events
+  const size_t room = reserved + kOther + runtime::roomForForces(running_.forcedBits()) + inputs_->listed() +
+                      roomFor(instance_.configured);
   neededOnly_ = running_.neededCopiesOnly();
   const auto put = [&](EventWriter& writer) noexcept {
     const runtime::Surroundings of = running_.surroundings();
@@ -116,20 +122,22 @@ bool HostRecorder::putStateInto(size_t reserved) noexcept {
 
 void HostRecorder::partBegins(runtime::PartKind kind, uint32_t number, bool withInputs) noexcept {
   inPart_ = true;
+  stream_.announce(kind, number);
   if (stream_.whole()) {
-    if (running_.nowUs() != nowUs_) events().put(Event::Clock, zigzag(running_.nowUs() - nowUs_));
-    if (withInputs) putInputs();
+    runtime::InputBits::Step* other = withInputs ? inputs_->firstOther(running_.block().data()) : nullptr;
+    if (other != nullptr || running_.nowUs() != nowUs_) putBefore(other);
     if (running_.neededCopiesOnly() != neededOnly_) stream_.beginAnew();
   }
   if (stream_.isStateDue(running_.nowUs()) && running_.atListStart()) putState();
-  if (!stream_.whole()) return;
-  stream_.begin(kind, number);
+  if (stream_.whole()) stream_.begin();
 }
 
-void HostRecorder::putInputs() noexcept {
+// Apart, since before most parts nothing has changed. `other`: inputs from there on.
+[[gnu::noinline]] void HostRecorder::putBefore(runtime::InputBits::Step* other) noexcept {
+  if (running_.nowUs() != nowUs_) events().put(Event::Clock, zigzag(running_.nowUs() - nowUs_));
   const uint8_t* block = running_.block().data();
   runtime::ByteRuns runs(events(), stream_.places(), Event::Input, block);
-  inputs_->compare(block, [&](uint32_t offset) noexcept { runs.add(offset); });
+  inputs_->compare(other, block, [&](uint32_t offset) noexcept { runs.add(offset); });
 }
 
 void HostRecorder::replied(const core::ServiceReply& reply) noexcept {
@@ -209,14 +217,18 @@ void HostRecorder::partEnds() noexcept {
   nowUs_ = running_.nowUs();
   if (!stream_.whole()) return;
   if (stream_.hasEventsWithin()) events().put(Event::Ended);
-  const bool faults = running_.faulted() && !faulted_;
-  if (faults) {
-    const rung_fault& fault = running_.fault();
-    stream_.putPart();
-    events().put(Event::Fault, fault.code, fault.rung, fault.line, fault.task);
-  }
+  if (running_.faulted() != faulted_) return endFaulted();
+  stream_.end();
+}
+
+// A part that has stopped the program, or put it back to work.
+[[gnu::noinline]] void HostRecorder::endFaulted() noexcept {
   faulted_ = running_.faulted();
-  stream_.end(faults);
+  if (!faulted_) return stream_.end();
+  const rung_fault& fault = running_.fault();
+  stream_.putPart();
+  events().put(Event::Fault, fault.code, fault.rung, fault.line, fault.task);
+  stream_.endByFault();
 }
 
 } // namespace rung::api

@@ -34,6 +34,9 @@ struct Configured {
 void putConfiguration(runtime::EventWriter& writer, const Configured& of) noexcept;
 size_t roomFor(const std::vector<Configured>& all) noexcept;
 
+// Of the whole state of an instance as it is recorded; 0: it was never on.
+size_t stateSize(const rung_instance& instance) noexcept;
+
 // The bits that the bound variables of an instance write in one of its programs. Not in real time.
 std::unique_ptr<runtime::InputBits> inputBits(const rung_instance& instance, const Generation& generation);
 
@@ -75,7 +78,8 @@ private:
   void putState() noexcept;
   bool putStateInto(size_t reserved) noexcept; // bytes for the state
   bool putWhole(runtime::EventWriter& writer) noexcept;
-  void putInputs() noexcept;
+  void putBefore(runtime::InputBits::Step* other) noexcept;
+  void endFaulted() noexcept;
   void putBytes(uint32_t offset, uint32_t count) noexcept;
   void putLogicalByte(uint32_t space, uint32_t byte) noexcept;
   runtime::EventWriter& events() noexcept { return stream_.events(); }
@@ -88,8 +92,8 @@ private:
   bool served_ = false, servedKnown_ = false;
   bool faulted_ = false;
   bool neededOnly_ = false;
-  int64_t nowUs_ = 0;     // after the last part
-  size_t stateBytes_ = 0; // of the last state, and a reserve
+  int64_t nowUs_ = 0; // after the last part
+  size_t stateBytes_; // of the last state, and a reserve
   size_t beforeFunction_ = 0;
 };
 

@@ -29,9 +29,7 @@ runtime::RecordedBytes recordedBytes(const rung_program& program) {
 // Eight whole states at least.
 size_t ringFor(const rung_instance& instance) {
   constexpr size_t kLeast = size_t{1} << 20, kStates = 8, kOther = 65'536;
-  core::Saver counted({});
-  if (instance.wasOn) (void)saveState(instance, counted, Waiting::LeftOut);
-  const size_t state = std::max<size_t>(counted.size(), instance.running.block().size()) + kOther;
+  const size_t state = std::max<size_t>(stateSize(instance), instance.running.block().size()) + kOther;
   return std::bit_ceil(std::max(kLeast, kStates * state));
 }
 

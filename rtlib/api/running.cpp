@@ -26,8 +26,9 @@ void stepFunctions(rung_instance& instance) noexcept {
 void endSlice(rung_instance& instance) noexcept {
   instance.environment->afterPart(instance.running);
   instance.running.hold();
+  if (!instance.retention) return;
   const bool asked = instance.recorder && instance.control->asksToSave(instance.running);
-  if (instance.retention && !instance.retention->afterSlice() && (instance.options.flags & RUNG_SAVE_AT_ONCE) != 0) {
+  if (!instance.retention->afterSlice() && (instance.options.flags & RUNG_SAVE_AT_ONCE) != 0) {
     (void)instance.retention->flush();
     (void)instance.retention->afterSlice();
   }

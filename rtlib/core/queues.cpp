@@ -2,6 +2,7 @@
 #include "rtlib/core/queues.h"
 
 #include <cassert>
+#include <type_traits>
 
 namespace rung::core {
 
@@ -121,7 +122,8 @@ namespace {
 // Only the values that are used.
 template <class Archive, class Value>
 void archiveValues(Archive& archive, Value* values, uint32_t count) {
-  for (uint32_t i = 0; i < count; ++i) archive(values[i]);
+  using Byte = std::conditional_t<std::is_const_v<Value>, const uint8_t, uint8_t>;
+  archive.bytes({reinterpret_cast<Byte*>(values), count * sizeof *values});
 }
 
 template <class T>

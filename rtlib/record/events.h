@@ -102,13 +102,24 @@ public:
     if (!fits_ || bytes.empty()) return;
     uint8_t* to = to_.data() + size_;
     size_ += bytes.size();
-    if (bytes.size() > kFew) return (void)std::memcpy(to, bytes.data(), bytes.size());
-    for (size_t i = 0; i < bytes.size(); ++i) to[i] = bytes[i];
+    if (bytes.size() <= kFew) return copyFew(to, bytes.data(), bytes.size());
+    std::memcpy(to, bytes.data(), bytes.size());
   }
 
 private:
   static constexpr size_t kNumber = 10; // bytes of one, at most
-  static constexpr size_t kFew = 8;     // bytes that are copied here
+  static constexpr size_t kFew = 8;     // bytes that are copied here: most events are that short
+  static void copyFew(uint8_t* to, const uint8_t* from, size_t count) noexcept {
+    if (count >= sizeof(uint32_t)) return copyBoth<uint32_t>(to, from, count);
+    if (count >= sizeof(uint16_t)) return copyBoth<uint16_t>(to, from, count);
+    *to = *from;
+  }
+  // The first bytes and the last ones, which may overlap.
+  template <class Word>
+  static void copyBoth(uint8_t* to, const uint8_t* from, size_t count) noexcept {
+    std::memcpy(to, from, sizeof(Word));
+    std::memcpy(to + count - sizeof(Word), from + count - sizeof(Word), sizeof(Word));
+  }
   static uint8_t* numberAt(uint8_t* at, uint64_t number) noexcept {
     for (; number >= 0x80; number >>= 7) *at++ = static_cast<uint8_t>(number | 0x80);
     *at++ = static_cast<uint8_t>(number);
@@ -285,7 +296,9 @@ public:
       : writer_(writer), places_(places), event_(event), block_(block) {}
   ByteRuns(const ByteRuns&) = delete;
   ByteRuns& operator=(const ByteRuns&) = delete;
-  ~ByteRuns() { put(); }
+  ~ByteRuns() {
+    if (count_ != 0) put();
+  }
 
   void add(uint32_t offset) noexcept {
     if (count_ != 0 && offset != first_ + count_) put();
@@ -295,7 +308,7 @@ public:
 
 private:
   void put() noexcept {
-    if (count_ != 0) putRun(writer_, places_, {event_, first_, count_}, block_ + first_);
+    putRun(writer_, places_, {event_, first_, count_}, block_ + first_);
     count_ = 0;
   }
   EventWriter& writer_;

@@ -5,7 +5,42 @@
 
 namespace rung::runtime {
 
-InputBits::InputBits(std::span<const uint8_t> masks) : masks_(masks.begin(), masks.end()) {
+// By two pieces, which are one operand of AVX2; other CPUs take them one by one. Compiled for both.
+[[gnu::always_inline]] inline InputBits::Step* InputBits::find(Step* at, Step* end, const uint8_t* block) noexcept {
+  using Pair = uint64_t __attribute__((vector_size(2 * kPiece)));
+  for (; at != end; ++at) {
+    Pair different{};
+    for (size_t k = 0; k < kStep; k += 2) {
+      Words one, two;
+      Pair mask, known;
+      std::memcpy(&one, block + at->offset[k], sizeof one);
+      std::memcpy(&two, block + at->offset[k + 1], sizeof two);
+      std::memcpy(&mask, &at->mask[k], sizeof mask);
+      std::memcpy(&known, &at->known[k], sizeof known);
+      different |= (__builtin_shufflevector(one, two, 0, 1, 2, 3) & mask) ^ known;
+    }
+    if ((different[0] | different[1] | different[2] | different[3]) != 0) return at;
+  }
+  return nullptr;
+}
+
+InputBits::Step* InputBits::findByAny(Step* at, Step* end, const uint8_t* block) noexcept {
+  return find(at, end, block);
+}
+
+#if defined(__x86_64__)
+[[gnu::target("avx2")]] InputBits::Step* InputBits::findByAvx2(Step* at, Step* end, const uint8_t* block) noexcept {
+  return find(at, end, block);
+}
+
+InputBits::Find InputBits::findBy(Cpu cpu) noexcept {
+  return cpu == Cpu::This && __builtin_cpu_supports("avx2") ? findByAvx2 : findByAny;
+}
+#else
+InputBits::Find InputBits::findBy(Cpu) noexcept { return findByAny; }
+#endif
+
+InputBits::InputBits(std::span<const uint8_t> masks, Cpu cpu) : find_(findBy(cpu)), masks_(masks.begin(), masks.end()) {
   for (size_t at = 0; at < masks_.size();) {
     if (masks_[at] == 0) {
       ++at;

@@ -15,9 +15,22 @@
 namespace rung::runtime {
 
 class InputBits {
+  static constexpr uint32_t kPiece = 16; // bytes of the block that are next to each other
+  static constexpr size_t kStep = 4;     // pieces that are compared together
+  using Words = uint64_t __attribute__((vector_size(kPiece)));
+
 public:
+  // Pieces in the order of their offsets; the last ones of the last step may have no bits.
+  struct Step {
+    static constexpr size_t kAlign = 2 * kPiece; // two of them are one operand
+    alignas(kAlign) Words known[kStep] = {};
+    alignas(kAlign) Words mask[kStep] = {};
+    uint32_t offset[kStep] = {};
+  };
+
+  enum class Cpu : uint8_t { This, Any }; // whose instructions compare
   // `masks`: which bits of each byte of the block, which has at least core::Memory::kLeastBlock bytes. Allocates.
-  explicit InputBits(std::span<const uint8_t> masks);
+  explicit InputBits(std::span<const uint8_t> masks, Cpu cpu = Cpu::This);
   // A list, as `list` writes it; nothing if it is not one for a block of so many bytes.
   static std::optional<InputBits> fromList(size_t blockBytes, EventReader& reader);
 
@@ -40,12 +53,13 @@ public:
     for (Step& step : steps_)
       for (size_t k = 0; k < kStep; ++k) step.known[k] = wordsAt(block, step.offset[k]) & step.mask[k];
   }
-  // Calls changed(offset) for each byte that is not as known, with ascending offsets, and makes all known.
+  // Where the first byte is that is not as known; null: all are.
+  Step* firstOther(const uint8_t* block) noexcept { return find_(steps_.data(), end(), block); }
+  // Calls changed(offset) for each byte from there on that is not as known, with ascending offsets, and makes all
+  // known.
   template <class Changed>
-  void compare(const uint8_t* block, Changed changed) noexcept {
-    Step* const end = steps_.data() + steps_.size();
-    for (Step* at = firstOther(steps_.data(), end, block); at != end; at = firstOther(at + 1, end, block))
-      compareStep(*at, block, changed);
+  void compare(Step* from, const uint8_t* block, Changed changed) noexcept {
+    for (Step* at = from; at != nullptr; at = find_(at + 1, end(), block)) compareStep(*at, block, changed);
   }
 
   // ---- a player ----
@@ -60,35 +74,25 @@ public:
   }
   // Writes what is known as events (Event::Input); `listedKnown`: the room for that.
   void listKnown(EventWriter& writer) const noexcept;
-  size_t listedKnown() const noexcept { return kStep * steps_.size() * (kPiece + kEvent); }
+  size_t listedKnown() const noexcept { return pieces_ * (kPiece + kEvent); }
   // From now on these bytes are known, from `offset` on.
   void set(uint64_t offset, std::span<const uint8_t> bytes) noexcept;
 
 private:
-  static constexpr uint32_t kPiece = 16; // bytes that are compared at once
-  static constexpr size_t kStep = 8;     // pieces that are compared together
-  static constexpr size_t kEvent = 12;   // bytes of an event beside those that it writes, at most
-  using Words = uint64_t __attribute__((vector_size(kPiece)));
-  // Pieces in the order of their offsets; the last ones of the last step may have no bits.
-  struct Step {
-    Words known[kStep] = {}, mask[kStep] = {};
-    uint32_t offset[kStep] = {};
-  };
+  static constexpr size_t kEvent = 12; // bytes of an event beside those that it writes, at most
 
+  Step* end() noexcept { return steps_.data() + steps_.size(); }
   static Words wordsAt(const uint8_t* block, uint32_t offset) noexcept {
     Words words;
     std::memcpy(&words, block + offset, sizeof words);
     return words;
   }
-  // The first one in which a byte is not as known.
-  static Step* firstOther(Step* at, Step* end, const uint8_t* block) noexcept {
-    for (; at != end; ++at) {
-      Words different{};
-      for (size_t k = 0; k < kStep; ++k) different |= (wordsAt(block, at->offset[k]) & at->mask[k]) ^ at->known[k];
-      if ((different[0] | different[1]) != 0) break;
-    }
-    return at;
-  }
+  // The first step in which a byte is not as known; null: none. For any CPU, and for those with AVX2.
+  using Find = Step* (*)(Step* at, Step* end, const uint8_t* block) noexcept;
+  static Step* find(Step* at, Step* end, const uint8_t* block) noexcept;
+  static Step* findByAny(Step* at, Step* end, const uint8_t* block) noexcept;
+  static Step* findByAvx2(Step* at, Step* end, const uint8_t* block) noexcept;
+  static Find findBy(Cpu cpu) noexcept;
   template <class Changed>
   static void compareStep(Step& step, const uint8_t* block, Changed& changed) noexcept {
     for (size_t k = 0; k < kStep; ++k) {
@@ -119,6 +123,7 @@ private:
   void add(uint32_t offset, Words mask);
   void makeList();
 
+  Find find_;
   std::vector<uint8_t> masks_; // of the block
   std::vector<Step> steps_;    // each byte is in one piece
   size_t pieces_ = 0;          // with bits

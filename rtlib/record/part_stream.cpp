@@ -31,7 +31,7 @@ void PartStream::keepPart() noexcept {
   putPart();
   if (!part_.fits()) return lose();
   putRepeats();
-  last_ = {now_.kind, now_.number, true};
+  last_ = {.kind = now_.kind, .plain = true, .number = now_.number};
   batch_.putBytes(part_.written());
   part_.cut(0);
   if (batch_.size() >= kBatch) flush();

@@ -46,8 +46,11 @@ public:
     part_.cut(0);
   }
 
-  void begin(PartKind kind, uint32_t number) noexcept {
-    now_ = {kind, number, part_.size() == 0};
+  // The part that begins next.
+  void announce(PartKind kind, uint32_t number) noexcept { now_ = {.kind = kind, .number = number}; }
+  // After what has happened before it.
+  void begin() noexcept {
+    now_.plain = part_.size() == 0;
     plainSize_ = 0;
     if (!now_.plain) putPart();
   }
@@ -58,18 +61,22 @@ public:
       part_.put(Event::Next);
     else
       part_.put(Event::Part, static_cast<uint8_t>(now_.kind), now_.number == RUNG_NONE ? 0 : now_.number);
-    written_ = {now_.kind, now_.number, true};
+    written_ = {.kind = now_.kind, .plain = true, .number = now_.number};
     plainSize_ = part_.size();
   }
   bool hasEventsWithin() const noexcept { return part_.size() != plainSize_; }
-  // `faulted`: by a fault, which stops the program.
-  void end(bool faulted) noexcept {
+  void end() noexcept {
     if (part_.size() == 0 && now_ == last_)
       ++repeats_;
     else
       keepPart();
-    if (faulted) faults_.store(faults_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
-    if (faulted || wanted_.load(std::memory_order_relaxed)) serve();
+    if (wanted_.load(std::memory_order_relaxed)) serve();
+  }
+  // By a fault, which stops the program.
+  void endByFault() noexcept {
+    faults_.store(faults_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+    want();
+    end();
   }
   // Makes all parts so far readable.
   void flush() noexcept;
@@ -91,9 +98,9 @@ private:
 
   struct Part {
     PartKind kind = PartKind::Scan;
-    uint32_t number = RUNG_NONE;
     // Of the present one: it has no other event. Of the last one: such a part is its repetition.
     bool plain = false;
+    uint32_t number = RUNG_NONE;
     bool operator==(const Part&) const = default;
   };
 

@@ -54,9 +54,9 @@ void Recorder::know(const Instance& instance) noexcept {
 
 void Recorder::putState(const Instance& instance) noexcept {
   if (bytes_ == nullptr) return;
-  constexpr size_t kOther = 256, kForce = 12; // of the other events
+  constexpr size_t kOther = 256; // of the other events
   const size_t size = stateSize(instance);
-  const size_t room = size + kOther + kForce * instance.forcedBits().size() + bytes_->outputs.listed();
+  const size_t room = size + kOther + roomForForces(instance.forcedBits()) + bytes_->outputs.listed();
   const auto put = [&](EventWriter& writer) noexcept {
     putSurroundings(writer, instance.surroundings());
     writer.put(Event::Outputs);
@@ -78,13 +78,14 @@ void Recorder::changedWhole(const Instance&) noexcept { stream_.beginAnew(); }
 void Recorder::begins(const Instance& instance, PartKind kind, uint32_t number) noexcept {
   if (inPart_) return beginsWithin(instance, number);
   inPart_ = true;
+  stream_.announce(kind, number);
   within_ = 0;
   putBefore(instance);
   if (stream_.isStateDue(instance.nowUs()) && instance.atListStart()) putState(instance);
   if (!stream_.whole()) return;
   for (const std::string& text : marks_) putMark(text);
   marks_.clear();
-  stream_.begin(kind, number);
+  stream_.begin();
 }
 
 void Recorder::putBefore(const Instance& instance) noexcept {
@@ -197,7 +198,7 @@ void Recorder::ended(const Instance& instance) noexcept {
   bytes_->within.knowWritten(instance.block().data());
   if (stream_.hasEventsWithin()) stream_.events().put(Event::Ended);
   putOutcome(instance);
-  stream_.end(faulted_);
+  faulted_ ? stream_.endByFault() : stream_.end();
 }
 
 void Recorder::putOutcome(const Instance& instance) noexcept {

@@ -42,6 +42,7 @@ COMMANDS = {
     "run": ["a.pmc", "--scans", "2"],
     "test": ["a.scn"],
     "replay": ["a.scn", "--show", "Y0.0"],
+    "lsp": ["--help"],  # its work needs an editor at the other end of a pipe
     "web": ["--help"],  # its work needs a host: remote.FullDisk
     "profile": ["a.scn", "--engine", "interp"],
     "wcet": ["a.pmc"],

@@ -122,11 +122,40 @@ class Failure(Folder):
         lines = done.stdout.splitlines()
         first = next(i for i, line in enumerate(lines) if "fails.scn:7:" in line)
         self.assertRegex(lines[first], r"fails\.scn:7: LOCK is 1, expected 0 \(scan 103, 1\.030 s\)$")
-        self.assertEqual(lines[first + 1], "    LOCK (5101.00), changed in scan 101, 1.010 s")
+        self.assertEqual(lines[first + 1], "    LOCK (5101.00) = 1, since scan 101, 1.010 s")
         self.assertRegex(lines[first + 2],
-                         r'^    written by rung \d+ "lock the door a second after it has closed", door\.lad:10$')
-        self.assertEqual(lines[first + 3], "      CLOSED (5100.00) = 1, changed in scan 1, 0.010 s")
-        self.assertRegex(lines[first + 4], r"^      T_LOCK \(5200\) = 0 .*, changed in scan 101, 1\.010 s$")
+                         r'^        written by rung \d+ "lock the door a second after it has closed", door\.lad:11$')
+        self.assertEqual(lines[first + 3], "          TOND T_LOCK has run out: 1.000 s")
+        self.assertEqual(lines[first + 4], "          CLOSED (5100.00) = 1, unchanged since the start")
+        self.assertIn("          fails.scn:2: set CLOSED 1", lines)
+        self.assertLessEqual(len(lines), 20, done.stdout)
+
+    def test_a_timer_that_has_not_run_out_is_named_with_its_time(self):
+        self.file("early.scn", "program door.lad\nset CLOSED 1\nscan 20\nexpect LOCK 1\n")
+        done = self.run_tests("early.scn")
+        self.assertEqual(done.returncode, WRONG)
+        self.assertRegex(done.stdout, r"\n +TON\w* T_LOCK runs: 0\.190 s of 1\.000 s\n")
+        self.assertRegex(done.stdout, r"it would be different with the time of TON\w* T_LOCK over\n")
+        self.assertRegex(done.stdout, r"\n +early\.scn:2: set CLOSED 1\n")
+
+    def test_a_long_chain_is_cut_and_the_rest_has_a_command(self):
+        rungs = "".join(f"rung\n|--[5100.0{i}]--(5100.0{i + 1})\n" for i in range(8))
+        self.file("chain.lad", "dialect nct\nmodule MAIN\n" + rungs)
+        self.file("chain.scn", "program chain.lad\nscan 2\nset 5100.00 1\nscan 3\nexpect 5100.08 0\n")
+        done = self.run_tests("chain.scn")
+        self.assertEqual(done.returncode, WRONG)
+        self.assertIn("      all of it: rungc replay chain.scn --why 5100.08\n", done.stdout)
+        self.assertNotIn("chain.scn:3: set", done.stdout)
+        whole = subprocess.run([RUNGC, "replay", "chain.scn", "--why", "5100.08"], cwd=self.folder.name,
+                               capture_output=True, timeout=patience(), text=True)
+        self.assertIn("chain.scn:3: set 5100.00 1", whole.stdout)
+
+    def test_the_explanation_is_of_the_program_that_the_scenario_runs(self):
+        """It is run a second time for it: what it writes and prints is that of the first."""
+        self.file("prints.scn", "program door.lad\nscan\nprint LOCK\nexpect LOCK 1\n")
+        done = self.run_tests("prints.scn", engine="interp,jit")
+        self.assertEqual(done.stdout.count("LOCK = 0\n"), 1, done.stdout)
+        self.assertIn("    LOCK (5101.00) = 0, unchanged since the start\n", done.stdout)
 
     def test_places_are_called_as_on_the_wiring_diagram(self):
         self.file("press.lad", """dialect nct
@@ -140,10 +169,9 @@ rung "up"
         self.file("press.scn", "program press.lad\nset INP000.11 1\nscan\nexpect Y_UP 1\n")
         done = self.run_tests("press.scn")
         self.assertEqual(done.returncode, WRONG)
-        self.assertRegex(done.stdout, r"    Y_UP \(OUT000\.05\), unchanged since the start\n"
-                         r'    written by rung 1 "up", press\.lad:6\n'
-                         r"      LS_TOP \(INP000\.11\) = 1, changed in scan 1, [\d.]+ s\n"
-                         r"      INP000\.12 = 0")
+        self.assertRegex(done.stdout, r"    Y_UP \(OUT000\.05\) = 0, unchanged since the start\n"
+                         r'        written by rung 1 "up", press\.lad:7\n'
+                         r"          INP000\.12 = 0")
         self.assertNotRegex(done.stdout, r"\b0\d\d\d\.")
         self.assertNotIn("takes over", done.stdout)  # the clock of all timers is no rung of the program
 
@@ -161,7 +189,7 @@ rung "up"
     def test_all_engines_say_the_same(self):
         done = self.run_tests("fails.scn", engine="interp,jit")
         self.assertIn("[interp] LOCK is 1, expected 0 (scan 103, 1.030 s)", done.stdout)
-        self.assertIn("CLOSED (5100.00) = 1, changed in scan 1, 0.010 s", done.stdout)
+        self.assertIn("CLOSED (5100.00) = 1, unchanged since the start", done.stdout)
 
 
 DEFINITION = """<PLCTableDef><Definition><DefinitionID>T</DefinitionID><ColsCount>1</ColsCount></Definition>

@@ -54,6 +54,11 @@ def replay(options, recording, *words, text=None):
     return result.stdout
 
 
+def shown(place):
+    """By its name, or by its address in brackets after the name."""
+    return rf"(\S+ \()?{re.escape(place)}\b"
+
+
 def check_recording(options, recording):
     said = replay(options, recording, text="compare\nquit\n")
     expect(re.fullmatch(r"\d+ scans do what was recorded\n", said), f"played differently: {said}")
@@ -62,8 +67,8 @@ def check_recording(options, recording):
     expect(found, f"{contact} has never been open")
     # the program may need a scan more
     said = replay(options, recording, "--why", f"{what}@{int(found[-1]) + 1}")
-    expect(said.startswith(what) and " = 0, since scan" in said.splitlines()[0], f"no emergency stop: {said}")
-    expect(re.search(rf"^ *(\S+ \()?{re.escape(contact)}\b.* = 0, .*decided", said, re.MULTILINE), f"{contact} was not the reason: {said}")
+    expect(re.match(rf"{shown(what)}.* = 0, since scan", said), f"no emergency stop: {said}")
+    expect(re.search(rf"^ *{shown(contact)}.* = 0, .*decided", said, re.MULTILINE), f"{contact} was not the reason: {said}")
 
 
 def keep(options, configuration, folder):

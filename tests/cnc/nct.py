@@ -7,8 +7,9 @@ import hal
 import linuxcnc
 
 import drive
-from drive import at_rest, change_in_motion, check, command, done, end_motion, errors, idle, is_state, mdi, operator, scans, pin, pins, progress, rungctl, set_mode, state, wait
-from panel import connect, panel, press, put, stopped_homing
+from drive import again_until, at_rest, change_in_motion, check, command, done, end_motion, errors, idle, is_state, mdi, operator, scans, pin, pins, progress, rungctl, set_mode, state, wait
+from panel import abort_cut_short, connect, panel, press, put, stopped_homing
+from patience import patience
 
 # What the simulated machine and the panel have as signals: driven by pins of this component.
 SIGNALS = {"estop-chain": (hal.HAL_BIT, True), "door": (hal.HAL_BIT, True), "key-on": (hal.HAL_BIT, False),
@@ -220,6 +221,12 @@ def pushed():
     return hal.get_value("joint.2.motor-pos-cmd")
 
 
+def send_home():
+    """The abort that belongs to a RESET may come late, and end this, too."""
+    command.mdi("M76")
+    command.wait_complete(patience())
+
+
 def bar_lost():
     """What was lost while the bar was pushed is not done, then and later; RESET gives the block up."""
     mdi("#505 = 200")
@@ -231,8 +238,7 @@ def bar_lost():
     press("key-reset", lambda: pin("bar-done"))
     idle()
     set_mode(linuxcnc.MODE_MDI)
-    mdi("M76")
-    wait("the bar pusher at home", lambda: near(pushed(), 0))
+    again_until("the bar pusher at home", send_home, lambda: near(pushed(), 0))
     mdi("M251")  # the chuck, which let go of the bar
 
 
@@ -324,7 +330,7 @@ def emergency_stop():
     mdi("M5")
 
 
-STEPS = (power, reference, by_hand, functions, bar_feeder, bar_lost, part, counted, signals, variables, remote, alarm, emergency_stop)
+STEPS = (power, reference, by_hand, functions, bar_feeder, bar_lost, abort_cut_short, part, counted, signals, variables, remote, alarm, emergency_stop)
 
 
 def session():

@@ -2,8 +2,9 @@
 import functools
 
 import hal
+import linuxcnc
 
-from drive import again_until, at_rest, check, scans, pin, program_state, wait
+from drive import again_until, at_rest, check, command, pin, pins, program_state, scans, set_mode, wait
 
 PRESS_US = 80_000  # of the program's time, in which a key is down: LinuxCNC is to see it, too
 SCANS = 4  # of the program in which it is, at least
@@ -35,6 +36,15 @@ def stopped_homing(joint, switch, begin):
     check(stood < 150 and not hal.get_value(f"joint.{joint}.homed"), "an open door has not stopped a homing")
     hal.set_p(f"{switch}.home-pos", str(was))
     put("door", True)
+
+
+def abort_cut_short():
+    """The mode changes while LinuxCNC does what belongs to an abort: the RESET that this gave ends."""
+    for mode in (linuxcnc.MODE_MANUAL, linuxcnc.MODE_MDI):
+        command.abort()
+        set_mode(mode)
+        scans(5)
+        pins(key_reset=False)
 
 
 def put(name, value):

@@ -8,7 +8,7 @@ import linuxcnc
 import drive
 from drive import (again_until, at_rest, change_in_motion, check, command, done, end_motion, errors, idle, is_state, mdi, operator, scans, pin, pins,
                    program_time, progress, rungctl, state, wait)
-from panel import connect, press, put, stopped_homing
+from panel import abort_cut_short, connect, press, put, stopped_homing
 
 # What the simulated machine and the panel have as signals: driven by pins of this component.
 SIGNALS = {"estop-chain": (hal.HAL_BIT, True), "door": (hal.HAL_BIT, True), "key-reset": (hal.HAL_BIT, False),
@@ -318,7 +318,7 @@ def emergency_stop():
     pins(spindle_cw=False, functions_busy=False, functions_lost=0)
 
 
-STEPS = [power, by_hand, by_program, spindle, coolant, tools, probing, part, stops, alarm, remote, emergency_stop]
+STEPS = [power, by_hand, by_program, spindle, coolant, tools, probing, abort_cut_short, part, stops, alarm, remote, emergency_stop]
 
 
 def session():

@@ -94,7 +94,7 @@ NAMESPACES = {
     "machine/host": "host", "machine/io": "io", "machine/control": "control", "machine/compile": "compile", "machine/rung-compile": "rung_compile",
     "machine/command-line": "cli", "machine/rung-run": "rung_run", "machine/rung-hal": "hal", "machine/rungctl": "rungctl",
     "sim": "sim", "sim/plugin": "rung_run",  # what rung-run declares, it defines
-    "tools/rungc": "rungc", "tools/scenario": "scenario", "tools/report": "report", "tools/replay": "replay", "tools/view": "view", "tools/web": "web", "tools/bind": "bind", "tools/imported": "imported",
+    "tools/rungc": "rungc", "tools/scenario": "scenario", "tools/report": "report", "tools/replay": "replay", "tools/source": "source", "tools/lsp": "lsp", "tools/view": "view", "tools/web": "web", "tools/bind": "bind", "tools/imported": "imported",
     "tools/bench": "bench",
 }
 NAMESPACE = re.compile(r"^namespace rung(?:::([\w:]+))?(?= *\{)", re.MULTILINE)

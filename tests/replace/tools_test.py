@@ -242,10 +242,11 @@ expect D110:4 -1234567
 
     def test_why_speaks_of_the_program_that_runs(self):
         self.fails("program lamp.lad\nscan 3\nreplace lamp2.lad\nset SWITCH 1\nscan\nexpect BEACON 0\n",
-                   "BEACON (5101.01), changed in scan 4, 0.040 s", "SWITCH (5100.00) = 1, changed in scan 4",
+                   "BEACON (5101.01) = 1, since scan 4, 0.040 s", "SWITCH (5100.00) = 1, since scan 4",
                    "lamp2.lad:")
         self.fails("program lamp.lad\nscan 3\nreplace lamp2.lad\nscan\nexpect BEACON 1\n",
-                   "BEACON (5101.01), unchanged since the program took over after scan 3, 0.030 s")
+                   "BEACON (5101.01) = 0, since scan 4, 0.040 s", "SWITCH (5100.00) = 0, since scan 4",
+                   "as the program was started, or a state loaded", ": replace lamp2.lad")
 
     def test_a_trace_follows_the_names(self):
         self.file("next.lad", LAMP.replace("COUNT  5300", "COUNT  5310").replace("LAMP", "LIGHT"))

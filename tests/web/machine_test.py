@@ -147,6 +147,9 @@ class Machine(Following):
         why = self.live.ask("why?name=LAMP")
         self.assertEqual([step[1].split(":")[0] for step in why["steps"]][:3], ["LAMP (Y0.0) = 1", "HELD (R0.0) = 1", "BUTTON (X0.0) = 1"])
         self.assertIn("through the host", why["steps"][-1][1])
+        names = {name: number for number, name, *_ in self.live.ask("names")["names"]}
+        self.assertEqual(why["steps"][0][4], [["HELD", "1", [names["HELD"]], True]])
+        self.assertEqual(why["different"], ["HELD (R0.0) = 0"])
 
     def test_goes_back_while_the_machine_runs(self):
         self.host.done("set", "BUTTON", "on")
@@ -164,6 +167,11 @@ class Machine(Following):
         self.assertEqual(before["values"], {"LAMP": "0"})
         trace = self.live.ask("trace?names=LAMP&scans=5")
         self.assertEqual((trace["first"], trace["values"]), (pressed - 5, [["0"] * 5]))
+        for what in ("step", "seek"):
+            self.live.order("seek", scans=pressed)
+            self.until(lambda p: p["scan"] == pressed)
+            self.live.order(what, scans=-10**15)
+            self.until(lambda p: p["scan"] == p["first"])
         self.live.order("run")
         self.until(lambda p: p["state"] == "running" and p["scan"] > later["last"])
 
@@ -241,6 +249,30 @@ class Machine(Following):
         self.until(lambda p: p["program"] != before["program"] and p["values"] == {"LAMP": "1"}, "LAMP")
         lamp = self.row("lamp of another program")
         self.until(lambda p: p["rows"][lamp] == "233")  # the beginning of the power, a contact, a coil
+
+    def test_a_message_without_a_text(self):
+        """A program that was compiled without the texts of its messages: the page says that there is none."""
+        self.until(lambda p: p["state"] == "running")
+        self.host.build("other.pmc", PROGRAM.replace("OUT  LAMP\n", "OUT  LAMP\nOUT  A0.0\n"))
+        self.host.done("reload", self.host.home / "other.so")
+        self.host.done("set", "BUTTON", "on")
+        self.until(lambda p: p["messages"] == [["1", "(no text)"]])
+        self.assertIsNotNone(wait_until(lambda: self.events("message") == ["1 (no text)"]))
+
+    def test_the_rungs_of_a_stopped_program(self):
+        """Those of the last scan that ran, also in a picture of a later scan; values are those of that one."""
+        self.host.done("set", "BUTTON", "on")
+        lamp = self.row("lamp")
+        self.until(lambda p: p["rows"][lamp] == "233" and p["ran"] == 0)
+        self.host.done("stop")
+        first = self.until(lambda p: p["ran"])
+        later = self.until(lambda p: p["scan"] > first["ran"] + 20)
+        self.assertEqual((later["state"], later["ran"], later["rows"][lamp]), ("stopped", first["ran"], "233"))
+        self.live.order("seek", scans=first["ran"])
+        self.until(lambda p: p["scan"] == first["ran"] and p["ran"] == 0 and p["rows"][lamp] == "233")
+        self.live.order("run")
+        self.host.done("start")
+        self.until(lambda p: p["state"] == "running" and p["ran"] == 0 and p["rows"][lamp] == "233")
 
     def test_another_program_whose_sources_are_gone(self):
         before = self.until(lambda p: p["state"] == "running")

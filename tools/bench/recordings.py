@@ -31,7 +31,8 @@ and a hash of the outputs is compared after each one, and the whole state at eac
 
 Instructions are exact counts by callgrind for the part program, as
 [above](#instructions-of-the-example-machines): of a scan or slot without a recorder, and what the
-recorder adds.
+recorder adds on a processor with AVX2, which compares the inputs. Each program runs for less than
+half a minute, so that whole states weigh more than later.
 """
 
 

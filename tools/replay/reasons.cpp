@@ -171,7 +171,7 @@ std::vector<Leaf> RungReasons::marked(std::vector<Leaf> leaves, uint32_t root) c
 
 class RungReasons::Change {
 public:
-  explicit Change(const RungReasons& of) : of_(of) {}
+  Change(const RungReasons& of, std::span<const uint32_t> fixed) : of_(of), fixed_(fixed) {}
 
   using Way = std::optional<std::vector<uint32_t>>; // values of leaves
   // So that the bit has its other value.
@@ -223,6 +223,7 @@ private:
       }
     }
     if (op.code == OpCode::EndIf) return yielded(made, value - op.result.index, isOn);
+    if (std::ranges::find(fixed_, made) != fixed_.end()) return std::nullopt;
     return std::vector<uint32_t>{value}; // a load, or the result of a comparison
   }
   Way yielded(uint32_t end, uint32_t number, bool isOn) {
@@ -250,11 +251,12 @@ private:
   }
 
   const RungReasons& of_;
+  std::span<const uint32_t> fixed_;
   std::map<uint32_t, Way> known_;
 };
 
-std::vector<Leaf> RungReasons::toChange(uint32_t store) const {
-  const Change::Way way = Change(*this).flip(storedValue(rung_.ops[store]));
+std::vector<Leaf> RungReasons::toChange(uint32_t store, std::span<const uint32_t> fixed) const {
+  const Change::Way way = Change(*this, fixed).flip(storedValue(rung_.ops[store]));
   std::vector<Leaf> leaves;
   if (!way) return leaves;
   for (const uint32_t value : *way) leaves.push_back({.operation = madeBy_[value], .value = value});

@@ -28,8 +28,8 @@ public:
   // What decided a value.
   std::vector<Leaf> ofValue(uint32_t value) const;
   // The fewest leaves that would have to have the other value for the stored bit to have the other one. Empty: no
-  // number of them would do, as far as the rung shows.
-  std::vector<Leaf> toChange(uint32_t store) const;
+  // number of them would do, as far as the rung shows. `fixed`: operations that cannot be among them.
+  std::vector<Leaf> toChange(uint32_t store, std::span<const uint32_t> fixed) const;
 
 private:
   class Justification;

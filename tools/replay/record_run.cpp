@@ -114,15 +114,37 @@ void SessionRecorder::take(std::span<const uint8_t> record) {
 
 void SessionRecorder::executing(const scenario::Session&, const scenario::Statement& statement) {
   if (paused_) return;
-  recorder_->mark(statement.file.empty() ? statement.text
-                                         : fmt::format("{}:{}: {}", statement.file, statement.line, statement.text));
+  mark_ = statement.file.empty() ? statement.text
+                                 : fmt::format("{}:{}: {}", statement.file, statement.line, statement.text);
+  recorder_->mark(mark_);
 }
+
+// A statement that has made the recording begin anew is before the state with which it does: what had not been written
+// by then is dropped.
+void SessionRecorder::markAgain() {
+  if (!paused_ && !mark_.empty()) recorder_->mark(mark_);
+}
+
+void SessionRecorder::started(scenario::Session&) { markAgain(); }
+
+void SessionRecorder::restored(const scenario::Session&) { markAgain(); }
 
 void SessionRecorder::replaced(const scenario::Session& session, const scenario::NextProgram& next) {
   bytes_ = std::make_unique<runtime::RecordedBytes>(recordedBytes(session.instance().program()));
   recorder_->programChanged(bytes_);
+  markAgain();
   if (writer_ && next.compiled)
     if (const Result<const compiler::Compiled*> program = next.compiled(); program.ok()) add(*program.value());
+}
+
+std::optional<scenario::Statement> statementOf(std::string_view mark) {
+  for (;;) { // the place of the statement comes before it, and the name of a file may contain anything
+    if (Result<scenario::Statement> statement = scenario::parseStatement(mark); statement.ok())
+      return std::move(statement).value();
+    const size_t colon = mark.find(": ");
+    if (colon == std::string_view::npos) return std::nullopt;
+    mark.remove_prefix(colon + 2);
+  }
 }
 
 Result<Recording> SessionRecorder::soFar(std::vector<std::shared_ptr<const compiler::Compiled>> programs) {

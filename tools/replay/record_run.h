@@ -1,7 +1,9 @@
 // Records a program in a simulated control: scenarios and runs at the prompt.
 #pragma once
 #include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 
 #include "rtlib/record/recorder.h"
 #include "rtlib/record/recording_writer.h"
@@ -10,6 +12,9 @@
 #include "tools/scenario/session.h"
 
 namespace rung::replay {
+
+// The statement of a mark that SessionRecorder has made; nothing for other marks.
+std::optional<scenario::Statement> statementOf(std::string_view mark);
 
 // Records a session from its start on; to be added to it as an observer then. The session outlives it, or `take`. The
 // statements are its marks.
@@ -25,6 +30,8 @@ public:
   SessionRecorder& operator=(const SessionRecorder&) = delete;
 
   void executing(const scenario::Session& session, const scenario::Statement& statement) override;
+  void started(scenario::Session& session) override;
+  void restored(const scenario::Session& session) override;
   void scanned(const scenario::Session& session) override;
   void replaced(const scenario::Session& session, const scenario::NextProgram& next) override;
 
@@ -44,12 +51,14 @@ private:
   void flush();
   void take(std::span<const uint8_t> record);
   void add(const compiler::Compiled& program);
+  void markAgain();
 
   runtime::Instance* instance_;
   std::unique_ptr<runtime::Recorder> recorder_;
   std::unique_ptr<runtime::RecordingWriter> writer_; // null: in memory
   std::string folder_;                               // of files
   std::unique_ptr<runtime::RecordedBytes> bytes_;    // of the former program
+  std::string mark_;                                 // of the last statement
   uint64_t scans_ = 0;
   bool paused_ = false;
   size_t mostBytes_;

@@ -13,7 +13,10 @@
 #include "ir/core/ops.h"
 #include "rtlib/load/program_info.h"
 #include "rtlib/nc/names/names.h"
+#include "rtlib/run/timer_state.h"
+#include "sim/simulated_nc.h"
 #include "tools/replay/reasons.h"
+#include "tools/replay/record_run.h"
 #include "tools/report/place_names.h"
 #include "tools/scenario/session.h"
 #include "tools/scenario/values.h"
@@ -66,8 +69,9 @@ public:
     Cell cell{report::bitsOf(place), {}, place.kind == runtime::RefKind::Real};
     cell.bits.count = std::min(cell.bits.count, 64u);
     Explanation explanation;
+    explanation.beginning = options_.beginning;
     explanation.reason = reasonOf(cell, here, {});
-    addSkipped(cell, here, explanation);
+    addOthers(cell, here, explanation);
     addChange(cell, here, explanation);
     (void)past_.goTo(here);
     return explanation;
@@ -139,6 +143,7 @@ private:
     if (bits.count == 1) return runtime::bitRef(bits.space.index, bits.first / 8, bits.first % 8);
     return runtime::intRef(bits.space.index, bits.first / 8, bits.count);
   }
+  bool isReal(const BitRange& bits) { return nc::meant(program_, refOf(bits, false)).kind == runtime::RefKind::Real; }
   std::string nameOf(const Cell& cell) {
     if (const std::optional<BitRange> bits = known(cell)) return report::shownName(program_, refOf(*bits, cell.real));
     if (!cell.slot.valid()) return "memory of its own";
@@ -292,9 +297,15 @@ private:
 
   Reason reasonOf(const Cell& cell, uint64_t part, const Within& moment, std::optional<uint64_t> seen = {}) {
     ++count_;
+    const Held held = heldOf(cell, factsOf(part).forced);
+    if (held.mask != 0 && isWhole(held, cell)) return forced(cell, held.value, part);
+    Reason reason = ofWrites(cell, part, moment, seen);
+    reason.partForced = held.mask != 0;
+    return reason;
+  }
+
+  Reason ofWrites(const Cell& cell, uint64_t part, const Within& moment, std::optional<uint64_t> seen) {
     const PartFacts& facts = factsOf(part);
-    if (const Held held = heldOf(cell, facts.forced); held.mask != 0 && isWhole(held, cell))
-      return forced(cell, held.value, part);
     uint64_t value = 0;
     bool fromBefore = false;
     const std::optional<Within> write = writeIn(facts, cell, moment, value, fromBefore);
@@ -319,12 +330,19 @@ private:
     uint64_t at = part;
     std::optional<Within> again = lastWriteIn(factsOf(at), cell, moment);
     for (const uint64_t first = scanBegin(part); !again && at > first;) again = lastWriteIn(factsOf(--at), cell, {});
-    Reason reason =
-        again ? wrote(cell, value, at, factsOf(at), *again) : plain(cell, value, Reason::Kind::Before, part, 0);
+    Reason reason = again ? wrote(cell, value, at, factsOf(at), *again) : asItBegan(cell, value, part);
     reason.unchanged = true;
     reason.part = past_.firstPart();
     reason.us = timeOf(reason.part);
     if (reason.note.empty()) reason.note = heldSince(cell, reason.part, part);
+    return reason;
+  }
+  // No rung has written it in this scan: a statement before the first scan has, or nothing at all.
+  Reason asItBegan(const Cell& cell, uint64_t value, uint64_t part) {
+    Reason reason = plain(cell, value, Reason::Kind::Before, part, 0);
+    if (cell.slot.valid() || past_.firstPart() != 0) return reason;
+    reason.note = setAt(cell, 1);
+    if (!reason.note.empty()) reason.kind = Reason::Kind::Outside;
     return reason;
   }
   // The first of the parts up to this one in which every task has had its turn: of a scan of several slices, or the
@@ -383,7 +401,7 @@ private:
     const std::optional<Force> force = lastForce(cell, part);
     const uint64_t since = force ? std::max(force->first, past_.firstPart()) : part;
     Reason reason = plain(cell, value, Reason::Kind::Forced, since, timeOf(since));
-    reason.note = noteAt(reason.name, since);
+    reason.note = noteAt(cell, since);
     std::optional<uint64_t> until;
     for (const ForceChange& change : past_.contents().forces)
       if (change.part >= part && !until && heldOf(cell, change.bits).mask == 0) until = change.part;
@@ -404,7 +422,11 @@ private:
 
   // No rung wrote it in the part.
   Reason outside(const Cell& cell, uint64_t value, uint64_t part, const PartFacts& facts) {
-    if (facts.before.empty()) return plain(cell, value, Reason::Kind::Start, part, facts.us);
+    if (facts.before.empty()) {
+      Reason reason = plain(cell, value, Reason::Kind::Start, part, facts.us);
+      reason.note = startedAt(part);
+      return reason;
+    }
     if (!cell.slot.valid()) {
       const std::vector<BitRange> sources = uses().copiedFrom(cell.bits);
       if (!sources.empty()) {
@@ -415,7 +437,7 @@ private:
       }
     }
     Reason reason = plain(cell, value, writer(cell, facts), part, facts.us);
-    if (reason.kind == Reason::Kind::Outside) reason.note = noteAt(reason.name, part);
+    if (reason.kind == Reason::Kind::Outside) reason.note = noteAt(cell, part);
     return reason;
   }
   // Who wrote it, as far as the recording says.
@@ -441,23 +463,46 @@ private:
   // What was copied at the beginning of a run is as before its first rung, what is copied at the end as after its last.
   Reason ofSource(const Cell& source, uint64_t part) { return reasonOf(source, part, {}); }
 
-  // The statements of a scenario that did something before the part: that of the cell, otherwise all if they are few.
-  std::string noteAt(const std::string& name, uint64_t part) const {
+  // Statements that have something done to the program before the part, as their marks say it, and what they say.
+  std::vector<std::pair<const std::string*, scenario::Statement>> statementsAt(uint64_t part) const {
+    std::vector<std::pair<const std::string*, scenario::Statement>> found;
+    for (const Landmark& note : past_.contents().landmarksAt(part - 1))
+      if (note.kind == Landmark::Kind::Note)
+        if (std::optional<scenario::Statement> statement = statementOf(note.text))
+          found.emplace_back(&note.text, std::move(*statement));
+    return found;
+  }
+  // The last one that gave the cell a value; "": none.
+  std::string setAt(const Cell& cell, uint64_t part) const {
+    std::string last;
+    for (const auto& [text, statement] : statementsAt(part)) {
+      if (statement.kind != scenario::Kind::Set && statement.kind != scenario::Kind::Force) continue;
+      for (const auto& place :
+           {names_->readPlace(program_, statement.name), names_->writePlace(program_, statement.name)})
+        if (place && place->kind != runtime::RefKind::Constant && ir::overlap(report::bitsOf(*place), cell.bits))
+          last = *text;
+    }
+    return last;
+  }
+  // The one that started the program or loaded a state; "": none.
+  std::string startedAt(uint64_t part) const {
+    std::string last;
+    for (const auto& [text, statement] : statementsAt(part)) {
+      using enum scenario::Kind;
+      const scenario::Kind kind = statement.kind;
+      if (kind == ColdStart || kind == WarmStart || kind == Restore || kind == Replace) last = *text;
+    }
+    return last;
+  }
+  // That which set it; otherwise all that did something, if they are few.
+  std::string noteAt(const Cell& cell, uint64_t part) const {
     constexpr size_t kFew = 3;
-    const std::string symbol = " " + name.substr(0, name.find(' ')) + " ";
-    const auto acts = [](std::string_view text) {
-      constexpr std::string_view kActing[] = {"set ", "block ", "event ", "plc ", "reply "};
-      return std::ranges::any_of(kActing, [&](std::string_view word) {
-        const size_t at = text.find(word);
-        return at == 0 || (at != std::string_view::npos && text[at - 1] == ' ');
-      });
-    };
+    if (std::string set = setAt(cell, part); !set.empty()) return set;
     std::vector<std::string> acting;
-    for (const Landmark& note : past_.contents().landmarks) {
-      if (note.kind != Landmark::Kind::Note || note.part + 1 != part || note.text.find("expect") != std::string::npos)
-        continue;
-      if (note.text.find(symbol) != std::string::npos) return note.text;
-      if (acts(note.text)) acting.push_back(note.text);
+    for (const auto& [text, statement] : statementsAt(part)) {
+      using enum scenario::Kind;
+      const scenario::Kind kind = statement.kind;
+      if (kind == Set || kind == Block || kind == Event || kind == Plc || kind == Reply) acting.push_back(*text);
     }
     return acting.size() > kFew ? std::string() : fmt::format("{}", fmt::join(acting, "; "));
   }
@@ -505,12 +550,83 @@ private:
     const RungFlow& run = facts.flow->runs()[write->run];
     const ir::Rung& rung = engine_.rung(run.lowered);
     const RungReasons reasons(rung, facts.values[write->run]);
-    for (const Leaf& leaf : reasons.toChange(facts.flow->accesses(run)[write->access].operation)) {
+    for (const Leaf& leaf : changeOf(reasons, cell, facts.flow->accesses(run), *write)) {
       const auto [read, value] = cellOf(leaf, rung, facts, run);
-      explanation.toChange.push_back(
-          read ? fmt::format("{} = {}", nameOf(*read), value == 0 ? 1 : 0)
-               : fmt::format("the result of line {}", ir::lineOf(rung, rung.ops[leaf.operation])));
+      explanation.toChange.push_back(read ? fmt::format("{} = {}", nameOf(*read), value == 0 ? 1 : 0)
+                                          : resultText(leaf, reasons, part, facts, run));
     }
+  }
+
+  // A result that would have to be different: of a timer, or computed otherwise.
+  std::string resultText(const Leaf& leaf, const RungReasons& reasons, uint64_t part, const PartFacts& facts,
+                         const RungFlow& run) {
+    const ir::Rung& rung = engine_.rung(run.lowered);
+    const std::vector<Timed> timers = timersOf(reasons.ofValue(leaf.value), facts, run);
+    if (timers.empty()) return fmt::format("the result of line {}", ir::lineOf(rung, rung.ops[leaf.operation]));
+    return fmt::format("the time of {} {}", timers[0].timer->name, isOver(timers[0], part) ? "not over" : "over");
+  }
+
+  // ---- timers ----
+
+  struct Timed {
+    const rung_timer* timer;
+    Cell time;
+  };
+  bool isTimeOf(const rung_timer& timer, const Cell& cell) const {
+    if (cell.slot.valid())
+      return timer.time_space == RUNG_NONE && timer.time_at == compiled_.layout->memory().slot(cell.slot);
+    return timer.time_space == cell.bits.space.index && timer.time_at == cell.bits.first / 8;
+  }
+  // Those whose time is among what was read.
+  std::vector<Timed> timersOf(const std::vector<Leaf>& leaves, const PartFacts& facts, const RungFlow& run) {
+    std::vector<Timed> timers;
+    for (const Leaf& leaf : leaves) {
+      const std::optional<Cell> cell = cellOf(leaf, engine_.rung(run.lowered), facts, run).first;
+      for (const rung_timer& timer : std::span(program_.timers, program_.timer_count))
+        if (cell && isTimeOf(timer, *cell) && std::ranges::find(timers, &timer, &Timed::timer) == timers.end())
+          timers.push_back({&timer, *cell});
+    }
+    return timers;
+  }
+  runtime::TimerState stateOf(const Timed& timed, uint64_t part) {
+    (void)past_.goTo(part);
+    return runtime::stateOf(past_.instance().memory(), *timed.timer);
+  }
+  // Of one whose time was read, so that it is not idle.
+  bool isOver(const Timed& timed, uint64_t part) {
+    const runtime::TimerState state = stateOf(timed, part);
+    if (state.running) return false;
+    const auto time = static_cast<int64_t>(valueIn(past_.instance().block(), timed.time));
+    return (timed.timer->flags & RUNG_TIMER_DOWN) != 0 || time * timed.timer->time_us >= state.preset;
+  }
+  // "": its preset is not known.
+  std::string timerText(const Timed& timed, uint64_t part) {
+    const runtime::TimerState state = stateOf(timed, part);
+    if (state.preset < 0) return {};
+    const bool counts = (timed.timer->flags & RUNG_TIMER_RUNS) != 0;
+    const auto shown = [&](int64_t time) {
+      return counts ? fmt::format("{}", time) : fmt::format("{:.3f} s", static_cast<double>(time) / 1e6);
+    };
+    const std::string_view unit = counts ? " runs of its instruction" : "";
+    if (isOver(timed, part)) return fmt::format("{} has run out: {}{}", timed.timer->name, shown(state.preset), unit);
+    return fmt::format("{} runs: {} of {}{}", timed.timer->name, shown(state.elapsed), shown(state.preset), unit);
+  }
+  // Where the compiler keeps what belongs to the timer; its key begins as those of the timer's other state.
+  bool isStateOf(const rung_timer& timer, const Cell& cell) const {
+    if (!cell.slot.valid()) return false;
+    const std::string& key = compiled_.shape->slots[cell.slot.index].key;
+    return key.find(fmt::format("/{}/", timer.name)) != std::string::npos;
+  }
+
+  // Not by the place itself, if there is another way.
+  static std::vector<Leaf> changeOf(const RungReasons& reasons, const Cell& cell, std::span<const Access> accesses,
+                                    const Within& write) {
+    const uint32_t store = accesses[write.access].operation;
+    std::vector<uint32_t> own;
+    for (const Access& access : accesses)
+      if (!access.writes && touches(access, cell)) own.push_back(access.operation);
+    std::vector<Leaf> leaves = reasons.toChange(store, own);
+    return leaves.empty() && !own.empty() ? reasons.toChange(store, {}) : leaves;
   }
 
   // What a load has read; nothing for other leaves.
@@ -520,7 +636,8 @@ private:
     for (size_t a = accesses.size(); a-- > 0;) {
       if (accesses[a].operation != leaf.operation || accesses[a].writes) continue;
       if (number != nullptr) *number = a;
-      const bool real = rung.ops[leaf.operation].type == ir::Type::F64;
+      const bool real =
+          rung.ops[leaf.operation].type == ir::Type::F64 || (!accesses[a].slot.valid() && isReal(accesses[a].place));
       return {Cell{accesses[a].place, accesses[a].slot, real}, accesses[a].value};
     }
     return {std::nullopt, 0};
@@ -592,6 +709,14 @@ private:
               size_t runNumber) {
     Operands operands;
     add(operands, leaves, facts, runNumber);
+    for (const Timed& timed : timersOf(leaves, facts, facts.flow->runs()[runNumber])) {
+      std::string text = timerText(timed, part);
+      if (text.empty()) continue;
+      reason.timers.push_back(std::move(text));
+      std::erase_if(operands.all, [&](const Operand& operand) {
+        return operand.cell == timed.time || isStateOf(*timed.timer, operand.cell);
+      });
+    }
     if (!operands.hasNames()) addDecider(operands, facts, runNumber);
     findSince(operands.all, part, facts);
     // Of those that have changed, what has a name comes first, and of these the one that changed last: it is the cause
@@ -607,6 +732,7 @@ private:
                         ? reasonOf(operand.cell, part, operand.at, operand.value)
                         : plain(operand.cell, operand.value, kept, since, timeOf(since));
       next.alone = operand.leaf.alone;
+      next.partForced = next.kind != Reason::Kind::Forced && heldOf(operand.cell, facts.forced).mask != 0;
       next.isIndex = operand.leaf.isIndex;
       reason.because.push_back(std::move(next));
     }
@@ -646,7 +772,7 @@ private:
   bool isClock(const Cell& cell) const {
     if (!cell.slot.valid()) return false;
     const std::string& key = compiled_.shape->slots[cell.slot.index].key;
-    return key.starts_with("@clock/") || key.starts_with("@scan/");
+    return key.starts_with("@clock/") || key.starts_with("@scan/") || key.ends_with("/time/passed");
   }
 
   int64_t timeOf(uint64_t part) {
@@ -654,26 +780,74 @@ private:
     return past_.instance().nowUs();
   }
 
-  void addSkipped(const Cell& cell, uint64_t part, Explanation& explanation) {
+  struct Ran {
+    const PartFacts* facts = nullptr; // null: it did not run
+    size_t run = 0;
+  };
+  // The last run of the rung in these parts.
+  Ran lastRun(uint32_t lowered, uint64_t first, uint64_t last) {
+    for (uint64_t at = last + 1; at-- > first;) {
+      const PartFacts& facts = factsOf(at);
+      for (size_t r = facts.flow ? facts.flow->runs().size() : 0; r-- > 0;)
+        if (facts.flow->runs()[r].lowered == lowered) return {&facts, r};
+    }
+    return {};
+  }
+
+  // The rungs that write the place, apart from the one that explains its value.
+  void addOthers(const Cell& cell, uint64_t part, Explanation& explanation) {
     if (!factsOf(part).flow || cell.slot.valid()) return;
     const uint64_t first = scanBegin(part);
-    const auto ran = [&](uint32_t lowered) {
-      for (uint64_t at = first; at <= part; ++at)
-        if (const PartFacts& facts = factsOf(at); facts.flow)
-          for (const RungFlow& run : facts.flow->runs())
-            if (run.lowered == lowered) return true;
-      return false;
-    };
-    for (const uint32_t writer : uses().writersOf(cell.bits).certain) {
-      if (ran(writer)) continue;
-      std::string text = fmt::format("{} did not run in this scan", runtime::rungText(program_, writer));
-      for (const uint32_t decider : uses().decidersOf(writer))
-        if (ran(decider)) {
-          text += fmt::format("; {} jumped over it", runtime::rungText(program_, decider));
-          break;
-        }
-      explanation.skipped.push_back(std::move(text));
+    const ir::Uses::Writers writers = uses().writersOf(cell.bits);
+    std::vector<uint32_t> also;
+    for (const uint32_t writer : writers.certain) {
+      if (lastRun(writer, first, part).facts != nullptr) {
+        if (writer != explanation.reason.lowered) also.push_back(writer);
+      } else
+        explanation.skipped.push_back(fmt::format("{} did not run in this scan{}", runtime::rungText(program_, writer),
+                                                  whyNot(writer, first, part)));
     }
+    addNoWriter(cell, writers, explanation);
+    if (also.empty()) return;
+    const bool known = explanation.reason.kind != Reason::Kind::Before;
+    explanation.also = (known ? "also written by " : "not written by ") + runtime::rungText(program_, also[0]);
+    if (also.size() > 1) explanation.also += fmt::format(", and by {} more", also.size() - 1);
+  }
+
+  // What leads to a value that no rung has written, as far as it is not known yet.
+  void addNoWriter(const Cell& cell, const ir::Uses::Writers& writers, Explanation& explanation) {
+    if (explanation.reason.kind != Reason::Kind::Before) return;
+    for (const uint32_t writer : writers.computed)
+      explanation.skipped.push_back(
+          fmt::format("{} has not written it, but may, at a computed address", runtime::rungText(program_, writer)));
+    const auto isWritten = [this](const BitRange& from) { return !uses().writersOf(from).none(); };
+    if (!writers.none() || std::ranges::any_of(uses().copiedFrom(cell.bits), isWritten)) return;
+    explanation.skipped.emplace_back(report::isWrittenByControl(program_, uses(), refOf(cell.bits, cell.real))
+                                         ? "only the control or the machine writes it"
+                                         : "no rung writes it");
+  }
+
+  // "; rung 1, main.pmc:7 jumped over it: GATE = 0", or that another one did not call its routine.
+  std::string whyNot(uint32_t writer, uint64_t first, uint64_t part) {
+    for (const uint32_t decider : uses().decidersOf(writer))
+      if (const Ran ran = lastRun(decider, first, part); ran.facts != nullptr)
+        return fmt::format("; {} jumped over it{}", runtime::rungText(program_, decider), conditionOf(ran));
+    for (const uint32_t caller : uses().callersOf(writer))
+      if (const Ran ran = lastRun(caller, first, part); ran.facts != nullptr)
+        return fmt::format("; {} did not call its routine{}", runtime::rungText(program_, caller), conditionOf(ran));
+    return {};
+  }
+  // ": GATE = 0", what decided which way the program took after the rung.
+  std::string conditionOf(const Ran& ran) {
+    const RungFlow& run = ran.facts->flow->runs()[ran.run];
+    const ir::Rung& rung = engine_.rung(run.lowered);
+    const ir::ValueId condition = rung.transfer.cond.valid() ? rung.transfer.cond : rung.transfer.value;
+    if (!condition.valid() || ran.facts->values[ran.run].empty()) return {};
+    std::string text;
+    for (const Leaf& leaf : RungReasons(rung, ran.facts->values[ran.run]).ofValue(condition.index))
+      if (const auto [cell, value] = cellOf(leaf, rung, *ran.facts, run); cell && !cell->slot.valid())
+        text += fmt::format("{}{} = {}", text.empty() ? ": " : ", ", nameOf(*cell), shown(value, *cell));
+    return text;
   }
 
   Past& past_;
@@ -684,19 +858,15 @@ private:
   const rung_program& program_;
   const uint32_t programNumber_; // changes of the program end the search
   const uint64_t asked_;         // the part of the question
+  const std::unique_ptr<sim::SimulatedNc> names_{sim::makeSimulatedNc(program_.dialect)}; // it drives nothing
   std::map<uint64_t, std::unique_ptr<PartFacts>> facts_;
   std::vector<std::pair<Cell, uint64_t>> visited_;
   size_t count_ = 0;
 };
 
-// ---- text --------------------------------------------------------------------------------------------------------
-
-std::string sinceText(const Reason& reason) {
-  if (reason.kind == Reason::Kind::Before || reason.unchanged) return "unchanged since the recording began";
-  return "since " + scenario::scanText(reason.part, reason.us);
-}
-
 } // namespace
+
+// ---- text --------------------------------------------------------------------------------------------------------
 
 std::string kindText(const Reason& reason) {
   switch (reason.kind) {
@@ -719,23 +889,58 @@ std::string kindText(const Reason& reason) {
 
 namespace {
 
-std::string operandText(const Reason& reason) {
-  if (reason.kind == Reason::Kind::Clock || reason.kind == Reason::Kind::Answer) return reason.name;
-  return fmt::format("{} = {}, {}{}{}", reason.name, reason.value, sinceText(reason),
-                     reason.alone ? ", decided alone" : "", reason.isIndex ? ", determined the address" : "");
-}
+class Text {
+public:
+  Text(const Explanation& explanation, const TextLimits& limits) : explanation_(explanation), limits_(limits) {}
 
-void put(const Reason& reason, std::string& text) {
-  if (const std::string kind = kindText(reason); !kind.empty()) text += fmt::format("\n    {}", kind);
-  if (!reason.note.empty()) text += fmt::format("\n      {}", reason.note);
-  for (const Reason& because : reason.because) text += fmt::format("\n      {}", operandText(because));
-  for (const Reason& because : reason.because) {
-    const bool goesOn = !kindText(because).empty();
-    if (!goesOn) continue;
-    text += fmt::format("\n  {} = {}, {}", because.name, because.value, sinceText(because));
-    put(because, text);
+  std::string run() {
+    text_ = valueText(explanation_.reason);
+    put(explanation_.reason);
+    listed("\n  ", explanation_.skipped, [](const std::string& skipped) { return skipped; });
+    if (!explanation_.also.empty()) text_ += "\n  " + explanation_.also;
+    if (!explanation_.toChange.empty())
+      text_ += fmt::format("\n  it would be different with {}", fmt::join(explanation_.toChange, " and "));
+    return std::move(text_);
   }
-}
+
+private:
+  std::string sinceText(const Reason& reason) const {
+    if (reason.kind == Reason::Kind::Before || reason.unchanged) return "unchanged since " + explanation_.beginning;
+    return "since " + scenario::scanText(reason.part, reason.us);
+  }
+  std::string valueText(const Reason& reason) const {
+    return fmt::format("{} = {}{}, {}", reason.name, reason.value, reason.partForced ? ", forced in part" : "",
+                       sinceText(reason));
+  }
+  std::string placeText(const Reason& reason) const {
+    if (reason.kind == Reason::Kind::Clock || reason.kind == Reason::Kind::Answer) return reason.name;
+    return fmt::format("{}{}{}", valueText(reason), reason.alone ? ", decided alone" : "",
+                       reason.isIndex ? ", determined the address" : "");
+  }
+  template <class T, class Show>
+  void listed(std::string_view indent, const std::vector<T>& all, Show show) {
+    const size_t count = std::min(all.size(), limits_.places);
+    for (size_t i = 0; i < count; ++i) text_ += fmt::format("{}{}", indent, show(all[i]));
+    if (count < all.size()) text_ += fmt::format("{}and {} more", indent, all.size() - count);
+  }
+  void put(const Reason& reason) {
+    if (const std::string kind = kindText(reason); !kind.empty()) text_ += fmt::format("\n    {}", kind);
+    if (!reason.note.empty()) text_ += fmt::format("\n      {}", reason.note);
+    for (const std::string& timer : reason.timers) text_ += "\n      " + timer;
+    listed("\n      ", reason.because, [this](const Reason& because) { return placeText(because); });
+    for (const Reason& because : reason.because) {
+      const bool goesOn = !kindText(because).empty();
+      if (!goesOn || (because.kind != Reason::Kind::Copy && ++steps_ >= limits_.steps)) continue;
+      text_ += fmt::format("\n  {}", valueText(because));
+      put(because);
+    }
+  }
+
+  const Explanation& explanation_;
+  const TextLimits& limits_;
+  size_t steps_ = 0;
+  std::string text_;
+};
 
 constexpr std::string_view kKindNames[] = {"rung",  "copy",   "outside", "machine", "client", "control", "forced",
                                            "start", "before", "clock",   "answer",  "kept"}; // by Reason::Kind
@@ -750,9 +955,11 @@ nlohmann::json jsonOfReason(const Reason& reason) {
     json.update({{"rung", reason.rung}, {"file", reason.file}, {"line", reason.line}});
   if (reason.unchanged) json["unchanged"] = true;
   if (reason.alone) json["alone"] = true;
+  if (reason.partForced) json["part_forced"] = true;
   if (reason.isIndex) json["index"] = true;
   if (reason.computed) json["computed"] = true;
   if (!reason.note.empty()) json["note"] = reason.note;
+  if (!reason.timers.empty()) json["timers"] = reason.timers;
   for (const Reason& because : reason.because) json["because"].push_back(jsonOfReason(because));
   return json;
 }
@@ -768,19 +975,13 @@ std::vector<std::string> writesOf(Past& past, const runtime::Ref& place) {
   return Inquiry(past, options).writes(place);
 }
 
-std::string textOf(const Explanation& explanation) {
-  std::string text = operandText(explanation.reason);
-  put(explanation.reason, text);
-  for (const std::string& skipped : explanation.skipped) text += fmt::format("\n  {}", skipped);
-  if (!explanation.toChange.empty())
-    text += fmt::format("\n  it would be different with {}", fmt::join(explanation.toChange, " and "));
-  return text;
-}
+std::string textOf(const Explanation& explanation, const TextLimits& limits) { return Text(explanation, limits).run(); }
 
 std::string jsonOf(const Explanation& explanation) {
   nlohmann::json json = jsonOfReason(explanation.reason);
   if (!explanation.toChange.empty()) json["to_change"] = explanation.toChange;
   if (!explanation.skipped.empty()) json["skipped"] = explanation.skipped;
+  if (!explanation.also.empty()) json["also"] = explanation.also;
   return json.dump(2);
 }
 

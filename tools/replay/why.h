@@ -39,25 +39,32 @@ struct Reason {
   uint32_t column = 0;      // of the element that it belongs to; 0: unknown
   uint32_t lowered = kNone; // of a Rung, over all routines
   bool alone = false;       // in the rung above: it decided alone
+  bool partForced = false;  // some of its bits are held
   bool isIndex = false;     // in the rung above: it determined the address
   bool computed = false;    // written at a computed address
   bool unchanged = false;   // of a Rung: it has the value since the recording began, and is written again and again
   std::string note;         // such as the statement of a scenario that set it
+  // Of a Rung: its timers that decided, such as "TMRB 1 runs: 0.016 s of 0.032 s".
+  std::vector<std::string> timers;
   // What decided; the one that changed last comes first, and the chain continues with it.
   std::vector<Reason> because;
 };
 
 struct Explanation {
   Reason reason;
+  std::string beginning; // of what is known: WhyOptions
   // For a bit: what would have to be different for the rung that wrote it last. Empty: unknown.
   std::vector<std::string> toChange;
-  // Rungs that write the place and did not run in the part, and which rung jumped over each.
+  // Rungs that write the place and did not run in the scan, and why not; of a value that nothing has written, what
+  // could.
   std::vector<std::string> skipped;
+  std::string also; // other rungs that wrote it in the scan; "": none
 };
 
 struct WhyOptions {
   size_t most = 40;               // reasons
   uint64_t mostParts = 1'000'000; // of the search for a change
+  std::string beginning = "the recording began";
 };
 
 // The value that the place has at the present position of the past, which stays.
@@ -68,8 +75,13 @@ std::vector<std::string> writesOf(Past& past, const runtime::Ref& place);
 
 // What gave the value: "written by rung 3 …", "forced by a person"; "" if the chain says nothing about it.
 std::string kindText(const Reason& reason);
+// What a text leaves out is counted.
+struct TextLimits {
+  size_t steps = SIZE_MAX;  // of the chain
+  size_t places = SIZE_MAX; // of one step, and rungs that did not run
+};
 // As lines of text; the first is that of the value itself.
-std::string textOf(const Explanation& explanation);
+std::string textOf(const Explanation& explanation, const TextLimits& limits = {});
 std::string jsonOf(const Explanation& explanation);
 
 } // namespace rung::replay

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "rtlib/nc/names/names.h"
+#include "rtlib/nc/signals.h"
 #include "rtlib/nc/technol/signals.h"
 
 namespace rung::report {
@@ -69,8 +70,25 @@ std::string symbolAt(const rung_program& program, const Ref& place) {
   return {};
 }
 
+namespace {
+
+// The signal of the control that is this bit, which programs can name without a symbol of their own; "": none.
+std::string signalAt(const rung_program& program, const Ref& place) {
+  const nc::SignalTable* signals = nc::signalsOf(program.dialect);
+  if (signals == nullptr || place.kind != RefKind::Bit) return {};
+  const std::string_view area = program.spaces[place.space].name;
+  const auto found = std::ranges::find_if(*signals, [&](const nc::Signal& signal) {
+    return signal.byteOffset == place.byte && signal.bit == place.bit && signal.type == nc::SignalType::Bit &&
+           signal.count == 1 && signal.area == area;
+  });
+  return found == signals->end() ? std::string() : found->symbol;
+}
+
+} // namespace
+
 std::string shownName(const rung_program& program, const Ref& place) {
-  const std::string symbol = symbolAt(program, place);
+  std::string symbol = symbolAt(program, place);
+  if (symbol.empty()) symbol = signalAt(program, place);
   const std::string address = nc::address(program, place);
   if (symbol.empty()) {
     const std::string cell = nc::cellAddress(program, place);
@@ -78,13 +96,6 @@ std::string shownName(const rung_program& program, const Ref& place) {
     return nc::hasAddresses(program) && !isLonger ? nc::describe(program, place) : cell;
   }
   return nc::hasAddresses(program) && address != symbol ? fmt::format("{} ({})", symbol, address) : symbol;
-}
-
-std::string shownRange(const rung_program& program, const ir::BitRange& range) {
-  const Ref first = runtime::intRef(range.space.index, range.first / 8, 8);
-  const uint32_t end = (range.first + range.count - 1) / 8;
-  const Ref last = runtime::intRef(range.space.index, end - end % program.spaces[range.space.index].unit_bytes, 8);
-  return fmt::format("one of {} to {}", nc::describe(program, first), nc::describe(program, last));
 }
 
 std::string writtenName(const rung_program& program, const Ref& use) {

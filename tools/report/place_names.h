@@ -27,10 +27,9 @@ ir::BitRange listedPlace(const rung_program& program, const ir::Uses& uses, cons
 
 // The symbol of exactly this place; "" if there is none.
 std::string symbolAt(const rung_program& program, const runtime::Ref& place);
-// For messages: "CLAMPED (X2.0)", "X2.1"; in a program without addresses (nc::hasAddresses) "CLAMPED".
+// For messages: "CLAMPED (X2.0)", "X2.1"; in a program without addresses (nc::hasAddresses) "CLAMPED". A bit without a
+// symbol has the name of its signal.
 std::string shownName(const rung_program& program, const runtime::Ref& place);
-// For computed addresses: "one of D100 to D119".
-std::string shownRange(const rung_program& program, const ir::BitRange& range);
 // A name that resolves to the place; "" if the dialect has none.
 std::string writtenName(const rung_program& program, const runtime::Ref& use);
 

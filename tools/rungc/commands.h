@@ -108,5 +108,6 @@ void addKey(CommandLine& app, int& status);
 void addMap(CommandLine& app, int& status);
 void addBind(CommandLine& app, int& status);
 void addWcet(CommandLine& app, int& status);
+void addLsp(CommandLine& app, int& status);
 
 } // namespace rung::rungc

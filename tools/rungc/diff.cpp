@@ -35,6 +35,7 @@ struct Side {
   std::vector<std::string> names;
   SourceOptions options;
   SourceManager sources;
+  std::unique_ptr<const frontend::CheckedProgram> text;
   std::optional<compiler::Compiled> compiled;
 };
 
@@ -265,7 +266,7 @@ int run(const DiffOptions& options) {
   if (status != kOk) return status;
   const bool complete = completeSides(before, after);
   for (Side* side : {&before, &after}) {
-    side->compiled = compileSources(side->sources, side->options, {.compare = true, .keepSource = true}, status);
+    side->compiled = compileSources(side->sources, side->options, {.compare = true, .source = &side->text}, status);
     if (!side->compiled) return status;
   }
   if (before.compiled->dialect != after.compiled->dialect)
@@ -273,8 +274,7 @@ int run(const DiffOptions& options) {
   const ir::ProgramImage images[] = {{*before.compiled->layout, 0}, {*after.compiled->layout, 0}};
   const auto version = [&](const Side& side, const ir::ProgramImage& image) {
     return report::Version{*side.compiled->built, side.compiled->given, image.program(),
-                           complete ? settingsOf(side) : report::Settings{},
-                           controlNames(side.compiled->source->analysis())};
+                           complete ? settingsOf(side) : report::Settings{}, controlNames(side.text->analysis())};
   };
   const report::Options what{.messages = complete, .textName = before.compiled->dialect->textName};
   const report::Difference found = report::compare(version(before, images[0]), version(after, images[1]), what);

@@ -2,15 +2,11 @@
 #pragma once
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "compiler/reference.h"
 
 namespace rung::rungc {
-
-// Entries of the reference formatted for a terminal: tables aligned, long cells on several lines, no heading marks.
-std::string plainText(std::string_view markdown);
 
 // The argument of `rungc explain FILE:LINE:COLUMN`.
 struct SourcePlace {

@@ -31,26 +31,20 @@ bool isIn(const std::string& name, const std::string& folder) {
   return !relative.empty() && *relative.begin() != "..";
 }
 
-std::map<std::string, std::string> configOf(const compiler::Project& project) {
-  std::map<std::string, std::string> config;
-  for (const compiler::Setting& setting : project.config) config[setting.key] = setting.value;
-  return config;
-}
-
 // The configuration of the project whose folder contains the file; empty if there is no readable one.
 std::map<std::string, std::string> configFor(const std::string& name) {
   const auto found = compiler::findUpwards(fs::path(name).parent_path().string());
   SourceManager sources;
   Diagnostics diagnostics;
   const auto project = found ? compiler::load(sources, *found, diagnostics) : std::nullopt;
-  return project ? configOf(*project) : std::map<std::string, std::string>();
+  return project ? compiler::configOf(*project) : std::map<std::string, std::string>();
 }
 
 // Files in the project's folder that its files include; files elsewhere may belong to other projects.
 std::vector<std::string> includedFiles(const compiler::Project& project) {
   const frontend::Dialect& dialect = *frontend::findDialect(project.dialect);
   SourceManager sources;
-  const Result<std::vector<FileId>> files = compiler::addFiles(sources, project.files, configOf(project));
+  const Result<std::vector<FileId>> files = compiler::addFiles(sources, project.files, compiler::configOf(project));
   if (dialect.included == nullptr || !files.ok()) return {}; // a file that cannot be read is reported later
   std::vector<std::string> names = dialect.included(sources, files.value(), {.includePaths = project.includePaths});
   std::erase_if(names, [&](const std::string& name) { return !isIn(name, project.folder); });

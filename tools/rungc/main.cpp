@@ -39,6 +39,7 @@ int main(int argc, char** argv) {
   addWeb(app, status);
   addProfile(app, status);
   addWcet(app, status);
+  addLsp(app, status);
   addExplain(app, status);
   addDoc(app, status);
   cli::addUsage(app, status);

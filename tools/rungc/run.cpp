@@ -194,8 +194,6 @@ private:
     if (const int status = openTrace(); status != kOk) return status;
     if (const int status = openRecording(); status != kOk) return status;
     const bool asked = options_.prompt || options_.web || !options_.scenarioFile.empty();
-    explainer_ = std::make_unique<scenario::Explainer>(session_, asked ? first().uses() : nullptr);
-    session_.addObserver(*explainer_);
     if (!asked) return kOk;
     past_ = std::make_unique<replay::SessionPast>(session_, [this] { return first().wanted(); }, recorder_.get());
     session_.addObserver(*past_);
@@ -231,12 +229,13 @@ private:
   int drive() {
     (void)catchStop();
     scenario::Console console(
-        session_, watch_, recording_, *explainer_, [this](const std::string& name) { return past_->why(name); },
+        session_, watch_, recording_, [this](const std::string& name) { return past_->why(name); },
+        [this](const scenario::Statement& s) { return past_->whyUnexpected(s, "why " + scenario::asWord(s.name)); },
         print_);
     if (const int status = setInputs(); status != kOk) return status;
     int status = runScenario(console);
-    if (options_.web) return status == kOk ? showPage() : status;
     if (status == kOk) status = runScans(console);
+    if (options_.web) return status == kOk && stopSignal() == 0 ? showPage() : status;
     if (!options_.prompt || stopSignal() == SIGTERM) return status;
     stopSignal() = 0;
     session_.setInterrupt([this] { return interrupted(); });
@@ -284,7 +283,7 @@ private:
   int runScans(scenario::Console& console) {
     if (!options_.prompt) session_.setUnattended();
     session_.setInterrupt([this] { return interrupted() || session_.instance().faulted(); });
-    const bool driven = options_.prompt || !options_.scenarioFile.empty();
+    const bool driven = options_.prompt || options_.web || !options_.scenarioFile.empty();
     scenario::Statement advance;
     advance.kind = options_.duration.empty() ? scenario::Kind::Scan : scenario::Kind::Run;
     advance.count = options_.scans.value_or(driven ? 0 : 1);
@@ -333,7 +332,7 @@ private:
     if (!program) return failure("the running program has not changed");
     programs_.push_back(std::move(*program));
     Program& next = programs_.back();
-    return scenario::NextProgram{{&next.runs()}, next.uses(), [&next] { return next.wanted(); }};
+    return scenario::NextProgram{{&next.runs()}, [&next] { return next.wanted(); }};
   }
 
   // Checks the dialect that the sources declare.
@@ -400,7 +399,6 @@ private:
   std::unique_ptr<replay::SessionRecorder> recorder_; // null: nothing is recorded
   std::unique_ptr<replay::SessionPast> past_;         // null: no prompt and no page
   std::unique_ptr<scenario::Trace> trace_;
-  std::unique_ptr<scenario::Explainer> explainer_; // set once the session has started
 };
 
 std::optional<Program> openSharedObject(const RunOptions& options, const std::string& file, int& status) {
@@ -499,7 +497,7 @@ void addRun(CommandLine& app, int& status) {
                  "interp, cpp, llvm, jit, or tiered (interp until jit has compiled). Default: tiered, with --debugger "
                  "jit; a shared object needs none");
   Option scans =
-      command.option("--scans", options->scans, "Number of scans; default: 1, or 0 with --scenario or --prompt")
+      command.option("--scans", options->scans, "Number of scans; default: 1, or 0 with --scenario, --prompt or --web")
           .between(uint64_t{0}, kMostScans);
   command.option("--for", options->duration, "Time to run, such as 2s or 500ms").excludes(scans);
   command

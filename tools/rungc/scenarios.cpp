@@ -16,6 +16,7 @@
 #include "frontend/dialects/dialect.h"
 #include "ir/support/utf8.h"
 #include "rtlib/nc/config_key.h"
+#include "tools/replay/session_past.h"
 #include "tools/rungc/commands.h"
 #include "tools/scenario/scenario.h"
 #include "tools/scenario/session.h"
@@ -45,7 +46,7 @@ TestCase runOne(const std::string& path, const scenario::RunOptions& options) {
   if (!parsed.ok())
     test.result.environment = parsed.error();
   else
-    test.result = scenario::run(parsed.value(), options);
+    test.result = replay::runAndExplain(parsed.value(), options);
   test.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return test;
 }

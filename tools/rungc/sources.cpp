@@ -18,10 +18,10 @@
 #include "ir/support/diag_render.h"
 #include "rtlib/load/file.h"
 #include "rtlib/text/controls.h"
-#include "tools/report/odd_names.h"
 #include "tools/rungc/commands.h"
 #include "tools/scenario/configuration.h"
 #include "tools/scenario/prompt.h"
+#include "tools/source/check.h"
 
 namespace rung::rungc {
 
@@ -167,13 +167,6 @@ int checkNamedConfig(const frontend::Dialect& dialect, const ConfigPairs& config
   return status;
 }
 
-void checkNames(const compiler::Compiled& compiled, const SourceManager& sources,
-                const frontend::CompileOptions& compile, Diagnostics& diagnostics) {
-  const ConfigPairs pairs(compile.config.begin(), compile.config.end());
-  for (const compiler::ConfigProblem& problem : compiler::checkNamesOfProgram(*compiled.dialect, sources, pairs))
-    compiler::report(problem, *compiled.dialect, compile.placeOf(problem.key), diagnostics);
-}
-
 } // namespace
 
 std::optional<std::vector<FileId>> addSources(SourceManager& sources, const SourceOptions& options,
@@ -201,21 +194,16 @@ namespace {
 std::optional<compiler::Compiled> compileFiles(SourceManager& sources, const SourceOptions& options,
                                                compiler::CompileRequest request, bool warnsOfNames, int& status) {
   request.dialect = options.dialect;
-  request.keepSource |= warnsOfNames;
   if (options.project) request.name = options.project->name;
   const auto files = addSources(sources, options, request.options, status);
   if (!files) return std::nullopt;
   Diagnostics diagnostics;
   std::optional<compiler::Compiled> compiled = [&] {
     const scenario::Working working("compiling");
-    return compiler::compile(sources, *files, request, diagnostics);
+    return warnsOfNames ? source::check(sources, *files, request, diagnostics)
+                        : source::compile(sources, *files, request, diagnostics);
   }();
-  if (compiled) checkNames(*compiled, sources, request.options, diagnostics);
-  if (compiled && warnsOfNames)
-    report::reportOddNames(sources, compiled->source->analysis(), *compiled->layout, *compiled->uses,
-                           compiled->dialect->shownSpaces, diagnostics);
   if (compiled) compiled->warnings = diagnostics.warningCount();
-  if (diagnostics.hasErrors()) compiled.reset();
   printDiagnostics(diagnostics, sources, options);
   status = compiled ? kOk : kWrong;
   return compiled;
@@ -230,9 +218,7 @@ std::optional<compiler::Compiled> compileSources(SourceManager& sources, const S
 
 std::optional<compiler::Compiled> compileChecked(SourceManager& sources, const SourceOptions& options,
                                                  compiler::CompileRequest request, int& status) {
-  std::optional<compiler::Compiled> compiled = compileFiles(sources, options, std::move(request), true, status);
-  if (compiled) compiled->source.reset(); // it refers to the sources, which may be destroyed first
-  return compiled;
+  return compileFiles(sources, options, std::move(request), true, status);
 }
 
 // Finds the project of a command line, and adds its settings to the options.
@@ -248,23 +234,10 @@ bool isFolder(const std::string& path) {
 
 bool isProjectFile(const std::string& path) { return fs::path(path).filename() == compiler::kFileName; }
 
-void checkSettings(const compiler::Project& project, const SourceManager& sources, Diagnostics& diagnostics) {
-  std::vector<std::pair<std::string, std::string>> pairs;
-  for (const compiler::Setting& setting : project.config) pairs.emplace_back(setting.key, setting.value);
-  const frontend::Dialect& dialect = *frontend::findDialect(project.dialect);
-  for (const compiler::ConfigProblem& problem : scenario::checkConfiguration(dialect, pairs)) {
-    const auto setting = std::find_if(project.config.begin(), project.config.end(),
-                                      [&](const compiler::Setting& s) { return s.key == problem.key; });
-    compiler::report(problem, dialect, sources.range(FileId{0}, setting->begin, setting->end), diagnostics);
-  }
-}
-
 std::optional<compiler::Project> loadProject(const std::string& file, const SourceOptions& options, int& status) {
   SourceManager sources;
   Diagnostics diagnostics;
-  std::optional<compiler::Project> project = compiler::load(sources, file, diagnostics);
-  if (project) checkSettings(*project, sources, diagnostics);
-  if (diagnostics.hasErrors()) project.reset();
+  std::optional<compiler::Project> project = source::loadProject(sources, file, diagnostics);
   if (!project || !diagnostics.reported().empty()) printDiagnostics(diagnostics, sources, options);
   if (!project) status = kWrong;
   return project;

@@ -43,14 +43,15 @@ bool isOfProgram(const rung_program& program, const report::Entry& entry) {
 int run(const XrefOptions& options) {
   SourceManager sources;
   int status = kOk;
-  const auto compiled = compileSources(sources, options.source, {.keepSource = true}, status);
+  std::unique_ptr<const frontend::CheckedProgram> text;
+  const auto compiled = compileSources(sources, options.source, {.source = &text}, status);
   if (!compiled) return status;
   const ir::ProgramImage image(*compiled->layout, compiled->codeHash);
   const report::CrossReference reference(image.program(), *compiled->uses, compiled->dialect->shownSpaces);
   const bool listed = !options.places.empty();
   auto entries = listed ? placesOf(reference, options) : reference.all();
   if (!entries) return kWrong;
-  report::markOdd(sources, compiled->source->analysis(), reference, *entries);
+  report::markOdd(sources, text->analysis(), reference, *entries);
   if (options.odd)
     std::erase_if(*entries, [](const report::Entry& entry) { return entry.odd.empty(); });
   else if (!listed)

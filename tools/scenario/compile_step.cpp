@@ -117,7 +117,6 @@ compiler::CompileRequest requestOf(const Scenario& scenario, const CompileSettin
   request.marks = settings.marks;
   request.optimise = settings.optimise;
   request.keepBuilt = true;
-  request.keepSource = firstOf(scenario, Kind::ExpectWarning) != nullptr;
   for (const Statement& s : scenario.statements) {
     if (s.kind == Kind::Dialect) request.dialect = s.name;
     if (s.kind == Kind::Period) request.options.config["period_us"] = std::to_string(s.microseconds);
@@ -138,17 +137,15 @@ std::optional<std::vector<FileId>> addFiles(SourceManager& sources, const std::v
   return std::nullopt;
 }
 
-// Warns like `rungc check`. The front end's analysis refers to the sources, which do not outlive the step.
-void reportNames(compiler::Compiled& program, const SourceManager& sources, Diagnostics& diagnostics) {
-  report::reportOddNames(sources, program.source->analysis(), *program.layout, *program.uses,
-                         program.dialect->shownSpaces, diagnostics);
-  program.source.reset();
-}
-
-void compileFiles(SourceManager& sources, const std::vector<FileId>& files, const compiler::CompileRequest& request,
-                  Diagnostics& diagnostics, CompileStep& step) {
+// Where warnings are expected, it warns like `rungc check`.
+void compileFiles(SourceManager& sources, const std::vector<FileId>& files, compiler::CompileRequest request,
+                  bool warnsOfNames, Diagnostics& diagnostics, CompileStep& step) {
+  std::unique_ptr<const frontend::CheckedProgram> text;
+  if (warnsOfNames) request.source = &text;
   step.program = compiler::compile(sources, files, request, diagnostics);
-  if (step.program && request.keepSource) reportNames(*step.program, sources, diagnostics);
+  if (step.program && warnsOfNames)
+    report::reportOddNames(sources, text->analysis(), *step.program->layout, *step.program->uses,
+                           step.program->dialect->shownSpaces, diagnostics);
   for (uint32_t i = 0; i < sources.fileCount(); ++i) step.files.emplace_back(sources.name(FileId{i}));
 }
 
@@ -165,7 +162,8 @@ CompileStep compileProgram(const Scenario& scenario, const std::vector<std::stri
   const auto files = addFiles(sources, names, request, step);
   if (!files) return step;
   Diagnostics diagnostics;
-  compileFiles(sources, *files, request, diagnostics, step);
+  const bool warnsOfNames = firstOf(scenario, Kind::ExpectWarning) != nullptr;
+  compileFiles(sources, *files, request, warnsOfNames, diagnostics, step);
   std::vector<Reported> reported = reportedOf(diagnostics, sources);
   checkExpected(scenario, reported, step.problems);
   checkOthers(scenario, reported, sources, step.problems);
@@ -198,7 +196,7 @@ CompileStep compileNext(const Scenario& scenario, const Statement& s, const fron
   request.dialect = dialect.name;
   request.name.clear(); // another program than the project's
   Diagnostics diagnostics;
-  compileFiles(sources, *files, request, diagnostics, step);
+  compileFiles(sources, *files, request, false, diagnostics, step);
   if (!step.program)
     step.problems.push_back(problemAt(s, "the program has errors:\n" + renderText(diagnostics, sources)));
   return step;

@@ -80,9 +80,10 @@ std::vector<std::string> Console::words() {
   return words;
 }
 
-Console::Console(Session& session, Watch& watch, Recording& recording, const Explainer& explainer, Why why, Print print)
-    : session_(session), watch_(watch), recording_(recording), explainer_(explainer), why_(std::move(why)),
-      print_(std::move(print)), completion_(session, words()) {}
+Console::Console(Session& session, Watch& watch, Recording& recording, Why why, WhyUnexpected whyUnexpected,
+                 Print print)
+    : session_(session), watch_(watch), recording_(recording), why_(std::move(why)),
+      whyUnexpected_(std::move(whyUnexpected)), print_(std::move(print)), completion_(session, words()) {}
 
 std::string Console::prompt() const {
   return fmt::format("scan {}, {:.3f} s> ", session_.scans(), static_cast<double>(session_.nowUs()) / 1e6);
@@ -144,7 +145,7 @@ Outcome Console::execute(const Statement& statement) {
   const StatementInfo& info = StatementInfo::of(statement);
   if (problem) {
     const std::string text = problem->file.empty() ? problem->message : textOf(*problem);
-    return fail(text + (info.expectsValue() ? explainer_.why(statement.name, wantsReal(statement)) : ""));
+    return fail(text + (info.expectsValue() ? whyUnexpected_(statement) : ""));
   }
   const bool typed = statement.file.empty();
   if (typed && info.expects) print_("ok");

@@ -10,7 +10,6 @@
 
 #include "compiler/project.h"
 #include "ir/support/result.h"
-#include "tools/scenario/explain.h"
 #include "tools/scenario/names.h"
 #include "tools/scenario/session.h"
 #include "tools/scenario/statements.h"
@@ -137,9 +136,11 @@ std::vector<std::string> typedWords(std::string_view line);
 class Console final : public Interpreter {
 public:
   // All references must outlive the console.
-  // `why`: the chain from the value of a name back to what it came from, or what is wrong.
+  // `why`: the chain from the value of a name back to what it came from, or what is wrong. `whyUnexpected`: lines about
+  // the value that an expectation has found, each preceded by a line break.
   using Why = std::function<Result<std::string>(const std::string& name)>;
-  Console(Session& session, Watch& watch, Recording& recording, const Explainer& explainer, Why why, Print print);
+  using WhyUnexpected = std::function<std::string(const Statement& expectation)>;
+  Console(Session& session, Watch& watch, Recording& recording, Why why, WhyUnexpected whyUnexpected, Print print);
 
   // Reports a fault, too.
   Outcome execute(std::string_view line) override;
@@ -184,8 +185,8 @@ private:
   Session& session_;
   Watch& watch_;
   Recording& recording_;
-  const Explainer& explainer_; // of expectations that fail
   Why why_;
+  WhyUnexpected whyUnexpected_;
   Print print_;
   Completion completion_;
   bool faultReported_ = false;

@@ -10,7 +10,6 @@
 
 #include "compiler/configuration.h"
 #include "tools/scenario/compile_step.h"
-#include "tools/scenario/explain.h"
 #include "tools/scenario/names.h"
 #include "tools/scenario/statements.h"
 
@@ -147,10 +146,7 @@ private:
       }
     }
     session_.setCompiled(compiledOf(*program_));
-    for (NamedProgram& named : named_) {
-      named.next.uses = named.program->compiled().uses.get();
-      named.next.compiled = compiledOf(*named.program);
-    }
+    for (NamedProgram& named : named_) named.next.compiled = compiledOf(*named.program);
     session_.setMakeProgram([this](const Statement& s) -> Result<NextProgram> {
       return std::ranges::find(named_, &s, &NamedProgram::statement)->next;
     });
@@ -198,8 +194,6 @@ private:
 
   bool observe(const compiler::Compiled& program) {
     session_.addObserver(printer_);
-    explainer_.emplace(session_, program.uses.get());
-    session_.addObserver(*explainer_);
     if (options_.started) result_.environment = options_.started(session_, program);
     return result_.environment.empty();
   }
@@ -214,7 +208,7 @@ private:
       if (info.sets) lastSet_ = &s;
       if (!problem) continue;
       if (info.expectsValue()) problem->message += unseenSet();
-      if (info.expectsValue() && explainer_) problem->message += explainer_->why(s.name, wantsReal(s));
+      if (info.expectsValue()) result_.unexpected = &s;
       result_.problems.push_back(std::move(*problem));
       return; // further problems would only repeat it
     }
@@ -236,7 +230,6 @@ private:
   std::vector<NamedProgram> named_;        // in the order of their statements
   Printer printer_{result_.printed};
   Session session_;
-  std::optional<Explainer> explainer_; // set once the session has started
 };
 
 } // namespace

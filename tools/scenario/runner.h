@@ -30,7 +30,9 @@ struct RunOptions {
 struct RunResult {
   bool passed = false;
   uint64_t scans = 0;
-  std::vector<Problem> problems;    // why it failed, with the lines of the scenario
+  std::vector<Problem> problems; // why it failed, with the lines of the scenario
+  // Of the scenario, if the last problem is that a name has another value than it expects; otherwise null.
+  const Statement* unexpected = nullptr;
   std::vector<std::string> printed; // output of print statements
   bool expectsNothing = false;      // a problem with RunOptions::strict
   std::vector<std::string> files;   // all files that were read: scenarios and sources

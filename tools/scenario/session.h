@@ -16,7 +16,6 @@
 #include <string_view>
 #include <vector>
 
-#include "ir/analysis/uses.h"
 #include "rtlib/run/realtime.h"
 #include "tools/scenario/engine_run.h"
 #include "tools/scenario/forces.h"
@@ -30,7 +29,6 @@ class Session;
 // A program that replaces the running one, or runs beside it as a shadow.
 struct NextProgram {
   std::vector<runtime::Engine*> engines; // one for each of the session's, in their order; must outlive the session
-  const ir::Uses* uses = nullptr;        // must outlive the session; null: the program was not compiled in this process
   compiler::GetCompiled compiled;        // its result must outlive the session
 };
 

@@ -130,7 +130,7 @@ Operand NetworkDrawing::operandOf(const frontend::chart::Operand& operand, bool 
   }
   const Access access = operand.use.access;
   const bool isPlace = operand.use.place.bits != 0;
-  if (coil || (isPlace && (access == Access::Write || access == Access::ReadWrite)))
+  if (coil || (isPlace && isWritten(access)))
     made.link = listener_.onUse({.named = named, .operand = operand.text, .writes = true, .coil = coil, .row = row});
   if (!coil && access != Access::Write)
     made.link = listener_.onUse({.named = named, .operand = operand.text, .row = row});

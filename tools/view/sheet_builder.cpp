@@ -218,7 +218,7 @@ Operand SheetDrawing::operandOf(const frontend::Word& word, const frontend::Oper
     operand.link = listener_.onUse({.named = {{}, {}, messageKey(number)}, .operand = word.text, .row = row});
   }
   Link link;
-  if (info->access == Access::Write || info->access == Access::ReadWrite)
+  if (isWritten(info->access))
     link = listener_.onUse({.named = named, .operand = word.text, .writes = true, .row = row});
   if (info->access != Access::Write) link = listener_.onUse({.named = named, .operand = word.text, .row = row});
   if (!message) operand.link = link;

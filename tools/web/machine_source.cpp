@@ -94,7 +94,8 @@ RunState MachineSource::state() const {
   if (!follows_) return RunState::Past;
   if (!host_.reached) return RunState::Lost;
   if (past().instance().faulted() || !host_.fault.empty()) return RunState::Fault;
-  return host_.stopped ? RunState::Stopped : RunState::Running;
+  // The recording knows it earlier than the host is asked.
+  return past().instance().stopped() || host_.stopped ? RunState::Stopped : RunState::Running;
 }
 
 std::string MachineSource::notice() const {

@@ -26,6 +26,11 @@ std::string numberOf(const nc::ShownMessage& message) {
   return {text.data(), size};
 }
 
+// A program may have been compiled without the texts of its messages.
+std::string textOf(const nc::ShownMessage& message) { return message.text.empty() ? "(no text)" : message.text; }
+
+std::string lineOf(const nc::ShownMessage& message) { return fmt::format("{} {}", numberOf(message), textOf(message)); }
+
 } // namespace
 
 // ---- the program's thread -------------------------------------------------------------------------------------------
@@ -104,9 +109,9 @@ bool PacedSource::compareMessages(const runtime::Instance& instance, const nc::C
     return std::ranges::find(list, one) != list.end();
   };
   for (const nc::ShownMessage& one : messages_)
-    if (!isIn(now, one)) log("gone", fmt::format("{} {}", numberOf(one), one.text), scan, instance.nowUs());
+    if (!isIn(now, one)) log("gone", lineOf(one), scan, instance.nowUs());
   for (const nc::ShownMessage& one : now)
-    if (!isIn(messages_, one)) log("message", fmt::format("{} {}", numberOf(one), one.text), scan, instance.nowUs());
+    if (!isIn(messages_, one)) log("message", lineOf(one), scan, instance.nowUs());
   messages_ = std::move(now);
   return true;
 }
@@ -119,8 +124,13 @@ void PacedSource::log(std::string kind, std::string text, uint64_t scan, int64_t
 
 std::vector<ShownMessage> messagesOf(const runtime::Instance& instance, const nc::Control& control) {
   std::vector<ShownMessage> shown;
-  for (const nc::ShownMessage& one : control.messages(instance)) shown.push_back({numberOf(one), one.text});
+  for (const nc::ShownMessage& one : control.messages(instance)) shown.push_back({numberOf(one), textOf(one)});
   return shown;
+}
+
+uint64_t scanFrom(uint64_t from, int64_t scans) {
+  const auto count = static_cast<uint64_t>(scans);
+  return scans < 0 ? from - std::min(from, uint64_t{0} - count) : from + count;
 }
 
 // ---- orders --------------------------------------------------------------------------------------------------------
@@ -254,8 +264,7 @@ Result<std::string> PacedSource::acknowledge() {
   return hand<std::string>([this]() -> Result<std::string> {
     if (shownScan() < lastScan()) return failure("this is the past: go to the newest scan first");
     if (messages_.empty()) return failure("no message is shown");
-    for (const nc::ShownMessage& one : messages_)
-      log("acknowledged", fmt::format("{} {}", numberOf(one), one.text), lastScan(), nowUs());
+    for (const nc::ShownMessage& one : messages_) log("acknowledged", lineOf(one), lastScan(), nowUs());
     return fmt::format("{} acknowledged", messages_.size());
   });
 }

@@ -143,6 +143,9 @@ private:
   bool ended_ = false;
 };
 
+// The scan so many after `from`, or before it, but not before 0.
+uint64_t scanFrom(uint64_t from, int64_t scans);
+
 // The messages that the operator sees.
 std::vector<ShownMessage> messagesOf(const runtime::Instance& instance, const nc::Control& control);
 

@@ -170,6 +170,7 @@ Response Page::picture(const Request& request) {
   return jsonOf({{"revision", now->revision},
                  {"scan", now->scan},
                  {"us", now->us},
+                 {"ran", now->ranLast},
                  {"program", now->drawn.number},
                  {"state", nameOf(now->state)},
                  {"follows", now->follows},
@@ -194,14 +195,20 @@ Response Page::events(const Request& request) {
   return jsonOf(all);
 }
 
-// Steps are [depth, text, scan, row or null, causes].
+// Steps are [depth, text, scan, row or null, causes], causes [name, value, ids, whether it decided alone].
 Response Page::why(const Request& request) {
   const Result<Why> why = source_.why(queryValue(request.query, "name"));
   if (!why.ok()) return textOf(409, why.error());
   json steps = json::array();
-  for (const WhyStep& step : why.value().steps)
-    steps.push_back({step.depth, step.text, step.scan, step.row ? json(*step.row) : json(), step.causes});
-  return jsonOf({{"why", why.value().text}, {"steps", std::move(steps)}});
+  for (const WhyStep& step : why.value().steps) {
+    json causes = json::array();
+    for (const WhyCause& cause : step.causes) causes.push_back({cause.name, cause.value, cause.ids, cause.alone});
+    steps.push_back({step.depth, step.text, step.scan, step.row ? json(*step.row) : json(), std::move(causes)});
+  }
+  return jsonOf({{"why", why.value().text},
+                 {"steps", std::move(steps)},
+                 {"different", why.value().toChange},
+                 {"skipped", why.value().skipped}});
 }
 
 Response Page::trace(const Request& request) {

@@ -46,6 +46,9 @@ void PastSource::show(replay::Past& past) {
   heard_ = past.firstPart();
   nextLandmark_ = 0;
   messages_.clear();
+  stops_.clear();
+  wasStopped_ = false;
+  heldNumber_ = 0;
   later_.clear();
 }
 
@@ -84,6 +87,9 @@ void PastSource::logLandmarks() {
 }
 
 void PastSource::hear() {
+  const bool stopped = past_->instance().stopped();
+  if (stopped && !wasStopped_ && past_->part() > 0) stops_.push_back(past_->part() - 1);
+  wasStopped_ = stopped;
   const nc::Control& control = hears_->control();
   if (compareMessages(past_->instance(), control, past_->part())) {
     if (messages_.size() == kMostHeard) messages_.pop_front();
@@ -158,11 +164,8 @@ Result<std::string> PastSource::carryOut(const Order& order) {
   switch (order.kind) {
   case Order::Kind::Run: running_ = true; return std::string("playing");
   case Order::Kind::Pause: return std::string("paused");
-  case Order::Kind::Step: {
-    const bool before = order.scans < 0 && past_->part() < static_cast<uint64_t>(-order.scans);
-    return seek(before ? 0 : past_->part() + static_cast<uint64_t>(order.scans));
-  }
-  case Order::Kind::Seek: return seek(order.scans < 0 ? 0 : static_cast<uint64_t>(order.scans));
+  case Order::Kind::Step: return seek(scanFrom(past_->part(), order.scans));
+  case Order::Kind::Seek: return seek(scanFrom(0, order.scans));
   case Order::Kind::Set:
   case Order::Kind::Force:
   case Order::Kind::Unforce:
@@ -174,6 +177,14 @@ Result<std::string> PastSource::carryOut(const Order& order) {
 }
 
 // ---- why ---------------------------------------------------------------------------------------------------------
+
+// A place that has a name is drawn by it, or by its address: the page knows either by the rows of the place.
+WhyCause PastSource::causeOf(const replay::Reason& reason) {
+  WhyCause cause{reason.name.substr(0, reason.name.find(" (")), reason.value, {}, reason.alone};
+  if (const auto place = nc_->readPlace(past_->instance().program(), cause.name))
+    cause.ids = view().places.at(report::bitsOf(*place));
+  return cause;
+}
 
 // Reasons that lead nowhere further are only causes of the step before.
 void PastSource::addSteps(const replay::Reason& reason, uint32_t depth, std::vector<WhyStep>& steps) {
@@ -192,8 +203,7 @@ void PastSource::addSteps(const replay::Reason& reason, uint32_t depth, std::vec
     if (const uint32_t rung = elements.rungOf(reason.lowered); rung != replay::kNone)
       step.row = view().drawn.program->rowOf(elements.rungs()[rung].number);
   }
-  for (const replay::Reason& because : reason.because)
-    step.causes.push_back(because.name.substr(0, because.name.find(" (")));
+  for (const replay::Reason& because : reason.because) step.causes.push_back(causeOf(because));
   for (const replay::Reason& because : reason.because) addSteps(because, depth + 1, steps);
 }
 
@@ -201,7 +211,7 @@ Result<Why> PastSource::explain(const std::string& name) {
   const auto place = nc_->readPlace(past_->instance().program(), name);
   if (!place) return failure(scenario::unknownName(past_->instance().program(), *nc_, name));
   const replay::Explanation explanation = replay::why(*past_, *place);
-  Why why{replay::textOf(explanation), {}};
+  Why why{replay::textOf(explanation), {}, explanation.toChange, explanation.skipped};
   addSteps(explanation.reason, 0, why.steps);
   return why;
 }
@@ -218,6 +228,33 @@ RunState PastSource::state() const {
   return running_ ? RunState::Running : past_->instance().faulted() ? RunState::Fault : RunState::Past;
 }
 
+// Tasks may run in different slices: each element as in its last run within a scan.
+std::vector<uint8_t> PastSource::elementsHere() {
+  const replay::Flow* flow = past_->flow({}, past_->partsPerScan());
+  return flow == nullptr ? std::vector<uint8_t>() : view().states.of(*flow, past_->flowInstance().block());
+}
+
+// While the operator has stopped the program nothing runs: then the rungs are those of the last part that ran, which is
+// played again once. (A fault ends the recording of scans.)
+void PastSource::fillElements(Picture& picture) {
+  const uint64_t here = past_->part();
+  const auto after = std::ranges::upper_bound(stops_, here);
+  if (!past_->instance().stopped() || after == stops_.begin()) {
+    picture.elements = elementsHere();
+    return;
+  }
+  const uint64_t ran = *std::prev(after);
+  if (heldPart_ != ran || heldNumber_ != picture.drawn.number) {
+    past_->keep();
+    held_ = past_->goTo(ran).empty() ? elementsHere() : std::vector<uint8_t>();
+    (void)past_->goTo(here);
+    heldPart_ = ran;
+    heldNumber_ = picture.drawn.number;
+  }
+  picture.elements = held_;
+  if (!held_.empty()) picture.ranLast = ran;
+}
+
 void PastSource::fill(Picture& picture, const std::set<std::string>& names) {
   const View& shown = view();
   picture.drawn = shown.drawn;
@@ -226,9 +263,7 @@ void PastSource::fill(Picture& picture, const std::set<std::string>& names) {
   picture.state = state();
   picture.follows = running_;
   if (past_->instance().faulted()) picture.fault = past_->instance().faultText();
-  // Tasks may run in different slices: each element as in its last run within a scan.
-  if (const replay::Flow* flow = past_->flow({}, past_->partsPerScan()))
-    picture.elements = shown.states.of(*flow, past_->flowInstance().block());
+  fillElements(picture);
   for (const std::string& name : names)
     if (std::string value = valueOf(name); !value.empty()) picture.values.emplace(name, std::move(value));
   const auto after = std::ranges::upper_bound(messages_, past_->part(), {}, &Heard::scan);

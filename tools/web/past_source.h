@@ -80,6 +80,9 @@ private:
   void hear();
   void logLandmarks();
   void skipDamage();
+  std::vector<uint8_t> elementsHere();
+  void fillElements(Picture& picture);
+  WhyCause causeOf(const replay::Reason& reason);
   void addSteps(const replay::Reason& reason, uint32_t depth, std::vector<WhyStep>& steps);
 
   replay::Past* past_;
@@ -92,6 +95,13 @@ private:
   uint64_t nextLandmark_ = 0; // counted with those that were dropped
   std::deque<Heard> messages_;
   std::deque<Later> later_; // ascending
+  // The last part that ran before each stop by the operator, and whether the part that was heard last was stopped.
+  std::vector<uint64_t> stops_;
+  bool wasStopped_ = false;
+  // The elements that are shown while the program is stopped: of this part, and of this view.
+  std::vector<uint8_t> held_;
+  uint64_t heldPart_ = 0;
+  uint32_t heldNumber_ = 0; // 0: none
 };
 
 } // namespace rung::web

@@ -59,7 +59,7 @@ SessionSource::SessionSource(scenario::Session& session, replay::SessionPast& pa
                              replay::FlowEngine& engine)
     : PacedSource(drawn), session_(session), past_(past), engine_(engine), drawn_(drawn),
       states_(engine, *drawn.program), places_(*drawn.program, session.instance(), session.nc(), states_),
-      scan_(session.scans()), last_(scan_) {
+      scan_(past.scans()), last_(scan_) {
   keepMoment();
 }
 
@@ -71,7 +71,14 @@ std::string SessionSource::statement(const std::string& line) {
 }
 
 bool SessionSource::nextScan() {
+  (void)advance();
+  return true;
+}
+
+// False: the program has stopped with a fault. Then no scan runs, and none is counted, here or in a recording.
+bool SessionSource::advance() {
   repeat();
+  if (session_.instance().faulted()) return false;
   oneScan();
   return true;
 }
@@ -86,9 +93,7 @@ void SessionSource::oneScan() {
   if (!problem.empty()) logHere("fault", problem);
   compareMessages(session_.instance(), session_.nc().control(), scan_);
   checkTrigger();
-  const bool faulted = session_.instance().faulted();
-  if (faulted && !faulted_) logHere("fault", session_.instance().faultText());
-  faulted_ = faulted;
+  if (session_.instance().faulted()) logHere("fault", session_.instance().faultText());
   if (moments_.empty() || session_.nowUs() - moments_.back().us >= kMomentEveryUs) keepMoment();
 }
 
@@ -116,10 +121,11 @@ Result<std::string> SessionSource::seek(uint64_t scan) {
       scan_ = from.scan;
       nextDone_ = from.statements;
     }
-    while (scan_ < scan) nextScan();
+    while (scan_ < scan && advance()) {
+    }
   }
   if (scan_ == last_) repeat();
-  return fmt::format("scan {}", scan);
+  return fmt::format("scan {}", scan_);
 }
 
 // What was executed before the next scan. What follows after the newest one has not been yet.
@@ -177,8 +183,7 @@ Result<std::string> SessionSource::write(const std::string& line, const char* ki
 }
 
 Result<std::string> SessionSource::step(int64_t scans) {
-  if (scans < 0 || scan_ < last_)
-    return seek(scans < 0 && scan_ < static_cast<uint64_t>(-scans) ? 0 : scan_ + static_cast<uint64_t>(scans));
+  if (scans < 0 || scan_ < last_) return seek(scanFrom(scan_, scans));
   for (int64_t i = 0; i < std::min(scans, kMostSteps); ++i) nextScan();
   return fmt::format("scan {}", scan_);
 }
@@ -194,7 +199,7 @@ Result<std::string> SessionSource::carryOut(const Order& order) {
   }
   case Order::Kind::Pause: return std::string("paused");
   case Order::Kind::Step: return step(order.scans);
-  case Order::Kind::Seek: return seek(order.scans < 0 ? 0 : static_cast<uint64_t>(order.scans));
+  case Order::Kind::Seek: return seek(scanFrom(0, order.scans));
   case Order::Kind::Set: return write(fmt::format("set {} {}", name, scenario::asWord(order.value)), "set");
   case Order::Kind::Force: return write(fmt::format("force {} {}", name, scenario::asWord(order.value)), "force");
   case Order::Kind::Unforce: return write(name.empty() ? "unforce" : "unforce " + name, "force");

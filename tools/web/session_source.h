@@ -57,6 +57,7 @@ private:
   Result<std::string> write(const std::string& line, const char* kind);
   Result<std::string> step(int64_t scans);
   std::string statement(const std::string& line);
+  bool advance();
   void oneScan();
   void repeat();
   void keepMoment();
@@ -74,7 +75,6 @@ private:
   std::deque<Moment> moments_; // oldest first
   std::vector<Done> done_;     // oldest first
   size_t nextDone_ = 0;        // of done_: the first that has not been executed at this scan
-  bool faulted_ = false;       // at the newest scan
 };
 
 } // namespace rung::web

@@ -44,6 +44,8 @@ struct Picture {
   uint64_t revision = 0; // larger in every picture
   uint64_t scan = 0;
   int64_t us = 0; // on the program's clock
+  // The operator has stopped the program: the scan whose rungs are shown, the last one that ran. 0: they are of `scan`.
+  uint64_t ranLast = 0;
   Drawn drawn;
   RunState state = RunState::Running;
   bool follows = false; // it continues by itself
@@ -77,18 +79,28 @@ struct Event {
   std::string text;
 };
 
+// What decided in a step of the chain.
+struct WhyCause {
+  std::string name;
+  std::string value;         // "": it has none, such as the clock
+  std::vector<uint32_t> ids; // NameRow::id of the names of this place
+  bool alone = false;        // its other value alone would have given another result
+};
+
 // A step of the chain that leads to a value.
 struct WhyStep {
   uint32_t depth = 0;
   std::string text;
-  uint64_t scan = 0;               // since when
-  std::optional<uint32_t> row;     // of the rung that wrote
-  std::vector<std::string> causes; // names that decided in it
+  uint64_t scan = 0;           // since when
+  std::optional<uint32_t> row; // of the rung that wrote
+  std::vector<WhyCause> causes;
 };
 
 struct Why {
   std::string text;
-  std::vector<WhyStep> steps; // empty: the text is all
+  std::vector<WhyStep> steps{};        // empty: the text is all
+  std::vector<std::string> toChange{}; // as replay::Explanation has them
+  std::vector<std::string> skipped{};
 };
 
 // Values of names scan by scan.

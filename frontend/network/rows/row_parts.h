@@ -51,7 +51,7 @@ constexpr LoweredRow basic(std::string_view mnemonic, std::string_view title, Op
   LoweredRow row;
   row.info.mnemonic = mnemonic;
   row.info.title = title;
-  row.info.group = operand.access == Access::Write || operand.access == Access::ReadWrite ? "coils" : "contacts";
+  row.info.group = isWritten(operand.access) ? "coils" : "contacts";
   if (!operand.name.empty()) row.info.operands = {operand};
   row.info.placement = Placement::Anywhere;
   row.info.ref = ref;

@@ -132,20 +132,6 @@ TEST(Uses, CopiesLeadBackToTheirSource) {
   EXPECT_EQ(uses.copiedWhole(bits(2, 4 * 8, 8)), std::nullopt) << "it is a copy";
 }
 
-TEST(Uses, RegistersComeFromEarlierRungs) {
-  const std::string load = "    %0:bit = slot_load $0\n    store.bit X[0.0], %0\n";
-  const std::string store = "    %0:bit = load X[1.0]\n    slot_store.bit $0, %0\n";
-  const std::string pass = "    %0:bit = slot_load $0\n    %1:bit = not %0\n    slot_store.bit $0, %1\n";
-  const std::string edge = "    %0:bit = slot_load $1\n    slot_store.bit $1, %0\n";
-  const Uses uses(moduleOf("routine R {\n" + rung(0, store) + rung(1, store) + rung(2, edge) + rung(3, pass) +
-                           rung(4, load) + rung(5, edge, "} call S if %0") + rung(6, load) + "}\nroutine S {\n" +
-                           rung(0, load) + "}\n"));
-  EXPECT_THAT(uses.registersFrom(4), ElementsAre(3u, 1u));
-  EXPECT_THAT(uses.registersFrom(2), IsEmpty()) << "its own state";
-  EXPECT_THAT(uses.registersFrom(6), ElementsAre(3u, 1u));
-  EXPECT_THAT(uses.registersFrom(7), IsEmpty()) << "of another routine";
-}
-
 TEST(Uses, JumpsOverARungAndReturnsAheadOfItDecide) {
   const Uses uses = flowOf({"} goto 3 if %0", "} goto 2 if %0", "}", "} ret if %0", "}"});
   EXPECT_THAT(uses.decidersOf(4), ElementsAre(3u));

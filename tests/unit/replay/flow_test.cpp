@@ -290,7 +290,7 @@ TEST(Flow, SaysWhatEachElementDidAndWhichRungsDidNotRun) {
     if (const auto place = engine.knownPlace(access))
       accesses += fmt::format("{} {} = {}; ", access.writes ? "write" : "read",
                               report::shownName(instance.program(), report::refAt(*place)), engine.shownValue(access));
-  EXPECT_EQ(accesses, "read X0.2 = 1; read X0.3 = 0; write R0.1 = 1; ");
+  EXPECT_EQ(accesses, "read KEY_MDI (X0.2) = 1; read KEY_MANUAL (X0.3) = 0; write R0.1 = 1; ");
   const ir::BitRange bit{ir::SpaceId{x}, 3, 1};
   EXPECT_EQ(valueOf(flow.accesses(*drawnLast), bit), 0u);
 }

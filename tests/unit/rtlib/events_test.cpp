@@ -98,13 +98,13 @@ TEST(InputBits, FindsWhatHasChanged) {
     std::vector<uint8_t> masks(size), block(size), known(size);
     for (size_t i = 0; i < size; ++i)
       if (random() % 5 == 0) masks[i] = static_cast<uint8_t>(random() % 2 == 0 ? 0xFF : random());
-    InputBits bits(masks);
+    InputBits bits(masks, round % 2 == 0 ? InputBits::Cpu::This : InputBits::Cpu::Any);
     for (int step = 0; step < 20; ++step) {
       for (size_t count = random() % 20; count != 0; --count) block[random() % size] = static_cast<uint8_t>(random());
       std::vector<uint32_t> expected, found;
       for (size_t i = 0; i < size; ++i)
         if (((block[i] ^ known[i]) & masks[i]) != 0) expected.push_back(static_cast<uint32_t>(i));
-      bits.compare(block.data(), [&](uint32_t offset) { found.push_back(offset); });
+      bits.compare(bits.firstOther(block.data()), block.data(), [&](uint32_t offset) { found.push_back(offset); });
       ASSERT_EQ(found, expected) << "round " << round << " size " << size;
       for (size_t i = 0; i < size; ++i) known[i] = block[i] & masks[i];
     }

@@ -35,8 +35,9 @@ void putState(PartStream& stream, uint64_t program = kProgram) {
 void putPart(PartStream& stream, const std::string& text) {
   stream.events().put(Event::Mark, text.size());
   stream.events().putBytes({reinterpret_cast<const uint8_t*>(text.data()), text.size()});
-  stream.begin(PartKind::Scan, RUNG_NONE);
-  stream.end(false);
+  stream.announce(PartKind::Scan, RUNG_NONE);
+  stream.begin();
+  stream.end();
   stream.flush();
 }
 

@@ -6,8 +6,8 @@
 
 #include "ir/support/temporary_folder.h"
 #include "tests/support/cases.h"
+#include "tools/replay/session_past.h"
 #include "tools/scenario/requests.h"
-#include "tools/scenario/runner.h"
 
 namespace rung::scenario {
 namespace {
@@ -26,8 +26,8 @@ std::string wrongStatement(const std::string& line) {
 std::string runOf(const std::map<std::string, std::string>& files) {
   const TemporaryFolder folder;
   for (const auto& [name, text] : files) std::ofstream(folder / name) << text;
-  const RunResult result =
-      run(parse((folder / "t.scn").string(), files.at("t.scn")), {.engines = {compiler::EngineKind::Interp}});
+  const RunResult result = replay::runAndExplain(parse((folder / "t.scn").string(), files.at("t.scn")),
+                                                 {.engines = {compiler::EngineKind::Interp}});
   std::string text = result.passed ? "passed" : result.environment + linesOf(result.problems);
   const std::string prefix = (folder / "").string();
   for (size_t at; (at = text.find(prefix)) != std::string::npos;) text.erase(at, prefix.size());

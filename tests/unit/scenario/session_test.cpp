@@ -87,7 +87,7 @@ TEST_F(ScenarioSession, ReplacesByWhatItIsGiven) {
   EXPECT_NE(execute("expect_no_change").find("no program has been replaced"), std::string::npos);
   session_.setMakeProgram([this](const Statement& s) -> Result<NextProgram> {
     if (s.words[0] != "lamp.lad") return failure("no program has this name");
-    return NextProgram{{engines_[0].get(), engines_[1].get()}, compiled_.uses.get()};
+    return NextProgram{{engines_[0].get(), engines_[1].get()}, {}};
   });
   EXPECT_EQ(execute("scan 2"), "");
   EXPECT_NE(execute("replace other.lad").find("no program has this name"), std::string::npos);
@@ -148,7 +148,7 @@ TEST_F(ScenarioSession, ASnapshotBelongsToItsProgram) {
   const auto others = enginesOf(other);
   session_.setMakeProgram([&](const Statement& s) -> Result<NextProgram> {
     const auto& engines = s.words[0] == "other.lad" ? others : engines_;
-    return NextProgram{{engines[0].get(), engines[1].get()}, nullptr};
+    return NextProgram{{engines[0].get(), engines[1].get()}, {}};
   });
   EXPECT_EQ(execute("set 5100.00 1"), "");
   EXPECT_EQ(execute("scan"), "");

@@ -154,6 +154,29 @@ TEST(Live, EveryFaultIsInTheHistory) {
   EXPECT_EQ(live.page->events("fault").size(), 2u);
 }
 
+// A program that has stopped runs no scan, so that the page and the chain of a value count the same ones.
+TEST(Live, ScansAreCountedAsInTheChainAlsoAfterFaults) {
+  Live live(kFaulty);
+  for (int i = 0; i < 2; ++i) { // the second time in the first scan after the restart
+    live.page->order(Order::Kind::Set, 0, "7000.01", "1");
+    live.page->order(Order::Kind::Step, 5);
+    EXPECT_EQ(live.page->picture().scan, live.first + 1 + static_cast<uint64_t>(i));
+    live.page->order(Order::Kind::Statement, 0, "cold_start");
+  }
+  EXPECT_EQ(live.page->events("fault").size(), 2u);
+  live.page->order(Order::Kind::Step, 3);
+  live.page->order(Order::Kind::Set, 0, "7300.00", "1");
+  live.page->order(Order::Kind::Step, 1);
+  const Picture now = live.page->picture();
+  EXPECT_EQ(now.scan, live.first + 6);
+  EXPECT_NE(whyOf(*live.source, "7300.00").find(fmt::format("since scan {},", now.scan)), std::string::npos)
+      << whyOf(*live.source, "7300.00");
+  EXPECT_EQ(live.page->order(Order::Kind::Seek, static_cast<int64_t>(live.first + 2)),
+            fmt::format("scan {}", live.first + 2));
+  EXPECT_NE(live.page->picture().fault, "");
+  EXPECT_EQ(live.page->order(Order::Kind::Seek, static_cast<int64_t>(now.scan)), fmt::format("scan {}", now.scan));
+}
+
 TEST(Live, TheTriggerLogsWhereItsConditionBeginsToHold) {
   Live live(kToggle);
   const auto wrong = live.source->setTrigger("rises NOTHING_SUCH");

@@ -1,8 +1,17 @@
 // The search: names, addresses and terminals, rungs by number, texts.
+import {make} from './elements.js';
 import {get} from './link.js';
 
 // An address with and without leading zeros, X002.1 and X2.1, is the same.
 const plain = text => text.toLowerCase().replace(/\b([a-z])0+(?=\d)/g, '$1');
+
+// What was written exactly comes first: the name (0), the address (1); then what begins so (2), and what has it (3).
+function rankOf(one, key) {
+  const name = plain(one.name), address = plain(one.address);
+  if (name === key) return 0;
+  if (address === key) return 1;
+  return name.startsWith(key) || address.startsWith(key) ? 2 : 3;
+}
 
 // The program's names, loaded once.
 export class Names {
@@ -40,14 +49,15 @@ export class Find {
     if (/^\d+$/.test(what) && this.index.numbers.includes(Number(what)))
       results.push({kind: 'Rung', text: 'Rung ' + what, rung: Number(what)});
     if (key) {
-      const starts = [], others = [];
+      const ranks = [[], [], [], []];
       for (const one of this.names.all) {
         if (!one.key.includes(key)) continue;
-        (plain(one.name).startsWith(key) || plain(one.address).startsWith(key) ? starts : others).push(
-          {kind: {i: 'Input', o: 'Output', c: 'Constant', t: 'Text'}[one.kind] ?? 'Name', text: one.name,
-           more: [one.address, one.comment].filter(Boolean).join(' · '), name: one});
+        ranks[rankOf(one, key)].push({kind: {i: 'Input', o: 'Output', c: 'Constant', t: 'Text'}[one.kind] ?? 'Name', text: one.name,
+          more: [one.address, one.comment].filter(Boolean).join(' · '), name: one});
       }
-      results.push(...starts.slice(0, 30), ...others.slice(0, 20));
+      const [names, addresses, starts, others] = ranks;
+      results.unshift(...names);
+      results.push(...addresses, ...starts.slice(0, 30), ...others.slice(0, 20));
       for (let row = 0; row < this.names.plainTitles.length && results.length < 60; ++row)
         if (this.names.plainTitles[row].includes(key))
           results.push({kind: this.index.numbers[row] ? 'Rung ' + this.index.numbers[row] : 'Heading',
@@ -60,19 +70,14 @@ export class Find {
 
   fill(what) {
     this.list.replaceChildren(...this.results.map((one, i) => {
-      const item = document.createElement('li');
+      const item = make('li');
       item.setAttribute('role', 'option');
       item.id = 'found-' + i;
-      for (const [name, text] of [['kind', one.kind], ['name', one.text], ['about', one.more ?? '']]) {
-        const span = document.createElement('span');
-        span.className = name;
-        span.textContent = text;
-        item.append(span);
-      }
+      item.append(make('span', 'kind', one.kind), make('span', 'name', one.text), make('span', 'about', one.more ?? ''));
       item.onmousedown = event => { event.preventDefault(); this.take(i); };
       return item;
     }));
-    if (what && !this.results.length) this.list.innerHTML = '<li class="none">Nothing found</li>';
+    if (what && !this.results.length) this.list.append(make('li', 'none', 'Nothing found'));
     this.list.hidden = !what;
     this.input.setAttribute('aria-expanded', String(Boolean(what)));
     this.mark();

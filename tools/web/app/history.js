@@ -1,6 +1,6 @@
 // What has happened: the messages with their times, and everything in its order.
 import {get} from './link.js';
-import {button, link, make} from './panels.js';
+import {button, link, make, tableOf} from './elements.js';
 
 const kMost = 1000;  // entries that are kept, as the server does
 const kKinds = {message: 'message', gone: 'message gone', acknowledged: 'acknowledged', fault: 'fault', trigger: 'trigger', set: 'set',
@@ -12,26 +12,13 @@ export function timeText(us) {
   return h ? `${h}:${String(m).padStart(2, '0')}:${rest.padStart(6, '0')}` : m ? `${m}:${rest.padStart(6, '0')}` : `${rest} s`;
 }
 
-function tableOf(caption, heads) {
-  const table = make('table'), head = make('tr'), top = make('thead'), rows = make('tbody');
-  table.append(make('caption', '', caption));
-  for (const text of heads) {
-    const cell = make('th', '', text);
-    cell.scope = 'col';
-    head.append(cell);
-  }
-  top.append(head);
-  table.append(top, rows);
-  return {table, rows};
-}
-
 export class History {
   // `onnews` is called with the entries that have come.
   constructor(box, writer, seek) {
     Object.assign(this, {box, writer, seek, last: 0, list: [], alarms: []});
-    this.messages = tableOf('Messages', ['Message', 'Came', 'Acknowledged', 'Gone']);
+    this.messages = tableOf([['text', 'Message'], ['', 'Came'], ['', 'Acknowledged'], ['', 'Gone']], 'Messages');
     this.messages.table.id = 'alarms';
-    this.all = tableOf('Everything', ['Scan', 'Time', 'What', '']);
+    this.all = tableOf([['', 'Scan'], ['', 'Time'], ['', 'What'], ['', 'Text']], 'Everything');
     this.all.table.id = 'everything';
     this.empty = make('p', 'soft', 'Nothing has happened yet: messages, faults and what is written appear here.');
     this.acknowledge = button('Acknowledge all', () => writer.send({do: 'acknowledge'}), 'Note in the history that the messages have been seen');
@@ -86,7 +73,7 @@ export class History {
       row.append(make('td', 'text', alarm.text));
       for (const event of [alarm.came, alarm.acknowledged, alarm.gone]) {
         const cell = make('td', 'num');
-        if (event) cell.append(timeText(event.us), ' · ', this.at(event, 'scan ')); else cell.append(make('span', 'soft', '–'));
+        if (event) cell.append(make('span', '', timeText(event.us)), ' ', this.at(event, 'scan ')); else cell.append(make('span', 'soft', '–'));
         row.append(cell);
       }
       return row;

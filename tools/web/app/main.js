@@ -1,4 +1,5 @@
 // The page: puts its parts together, and draws every picture in all of them at once.
+import {make} from './elements.js';
 import {get, post, Pictures} from './link.js';
 import {Pane, widthOfPage} from './pane.js';
 import {Tree} from './tree.js';
@@ -6,13 +7,15 @@ import {Find, Names} from './find.js';
 import {Trace} from './trace.js';
 import {Profile} from './profile.js';
 import {History, timeText} from './history.js';
-import {Detail, make, Terminals, Watch, Writer} from './panels.js';
+import {Detail, Terminals, Watch, Writer} from './panels.js';
 
 const by = id => document.getElementById(id);
 const kStates = {running: 'Running', paused: 'Paused', past: 'Past', fault: 'Fault', stopped: 'Stopped', lost: 'No connection'};
 
 let picture = null;       // the one that is drawn
 let seeking = null;       // the scan that was last asked for, while an answer is awaited
+let unreached = null;     // the scan that was asked for while there was no connection
+let dragging = false;     // the time line is held
 let tab = 'ladder';
 
 function tell(text, wrong = false) {
@@ -24,22 +27,23 @@ function tell(text, wrong = false) {
   tell.timer = setTimeout(() => { toast.hidden = true; }, wrong ? 8000 : 3500);
 }
 
-async function order(what) {
+// Null: it was refused, or there is no connection, which fetch reports by a TypeError.
+async function order(what, unanswered) {
   try {
     return await post('order', what);
   } catch (error) {
-    tell(error.message, true);
+    if (error instanceof TypeError) unanswered?.(); else tell(error.message, true);
     return null;
   }
 }
 
-// One request at a time: what is asked for meanwhile comes afterwards, once.
+// One request at a time: what is asked for meanwhile comes afterwards, once. Without a connection it waits for that.
 async function seek(scan) {
   if (seeking !== null) { seeking = scan; return; }
   seeking = scan;
   for (;;) {
     const asked = seeking;
-    await order({do: 'seek', scans: asked});
+    await order({do: 'seek', scans: asked}, () => { unreached = seeking; });
     if (seeking === asked) break;
   }
   seeking = null;
@@ -60,15 +64,28 @@ function isDark() {
   return set ? set === 'dark' : matchMedia('(prefers-color-scheme: dark)').matches;
 }
 
+// `buttons`: [text, what it does], the first one also by Enter; one that returns a text keeps the dialog open, which
+// says it.
 function dialog(title, parts, buttons) {
-  const box = by('dialog');
-  const row = make('div', 'actions');
-  for (const [text, act] of buttons) {
+  const box = by('dialog'), form = make('form'), row = make('div', 'actions'), wrong = make('p', 'wrong');
+  wrong.setAttribute('role', 'alert');
+  const press = act => {
+    const refused = act?.();
+    if (typeof refused !== 'string') return box.close();
+    wrong.textContent = refused;
+    form.querySelector('input')?.focus();
+  };
+  buttons.forEach(([text, act], i) => {
     const one = make('button', '', text);
-    one.onclick = () => { box.close(); act?.(); };
+    one.type = i ? 'button' : 'submit';
+    if (i) one.onclick = () => press(act);
     row.append(one);
-  }
-  box.replaceChildren(make('h2', '', title), ...parts, row);
+  });
+  form.onsubmit = event => { event.preventDefault(); press(buttons[0][1]); };
+  const head = make('h2', '', title);
+  head.id = 'dialog-title';
+  form.append(head, ...parts, wrong, row);
+  box.replaceChildren(form);
   box.showModal();
 }
 
@@ -79,6 +96,20 @@ function keysDialog() {
     ['w', 'watch the selected name'], ['p', 'profile of the rungs'], ['1 2 3 4', 'views'], ['Esc', 'close']])
     list.append(make('dt', '', key), make('dd', '', what));
   dialog('Keys', [list], [['Close']]);
+}
+
+// What is said before another program is drawn is said again by the page with that one.
+const kSaid = 'rung-said';
+function reload() {
+  try { sessionStorage.setItem(kSaid, 'Another program runs now: it is shown from here on, and writing is off'); } catch { /* it is seen all the same */ }
+  location.reload();
+}
+function sayWhatWasSaid() {
+  try {
+    const said = sessionStorage.getItem(kSaid);
+    if (said) tell(said);
+    sessionStorage.removeItem(kSaid);
+  } catch { /* nothing was kept */ }
 }
 
 async function start() {
@@ -102,14 +133,14 @@ async function start() {
     profile.place(which === 'ladder');
     follow();
   };
-  const goRung = number => { closeSide(); showTab('ladder'); pane.goRung(number); };
-  const goRow = row => { closeSide(); showTab('ladder'); pane.go(row, index.kinds[row] === 'r'); };
+  const goRung = (number, place) => { closeSide(); showTab('ladder'); pane.goRung(number, place); };
+  const goRow = row => { closeSide(); showTab('ladder'); pane.go(row, {focus: index.kinds[row] === 'r'}); };
   const choose = element => { detail.show(element).then(follow); };
 
   const pane = new Pane(by('ladder'), by('space'), index, width, choose);
   const tree = new Tree(by('tree'), index, goRow);
-  const watch = new Watch(by('watch'), names, writer, goRung, 'rung-watch-' + index.title);
-  const detail = new Detail(by('detail'), names, writer, {go: goRung, goRow, seek, causes: map => pane.setCauses(map),
+  const watch = new Watch(by('watch'), names, writer, choose, 'rung-watch-' + index.title);
+  const detail = new Detail(by('detail'), names, writer, {go: goRung, goRow, seek, causes: map => pane.setCauses(map), back: () => pane.focus(),
     watch: name => { watch.add(name); tell(`${name} is watched`); }});
   const terminals = new Terminals(by('io'), names, goRung, choose);
   const history = new History(by('log'), writer, seek);
@@ -117,7 +148,7 @@ async function start() {
     if (found.name) {
       choose({dataset: {id: found.name.id, name: found.name.name}});
       const first = found.name.writes[0] ?? found.name.reads[0];
-      if (first && tab === 'ladder') goRung(first);
+      if (first && tab === 'ladder') goRung(first, {id: found.name.id, writes: found.name.writes.length > 0});
     } else if (found.rung) {
       goRung(found.rung);
     } else {
@@ -125,6 +156,7 @@ async function start() {
     }
   });
   watch.fill();
+  sayWhatWasSaid();
   const trace = new Trace(by('watch'), watch, seek, tell);
   history.onnews = news => trace.news(news);
   const profile = new Profile(by('legend'), by('profile'), pane, goRung, tell);
@@ -142,13 +174,18 @@ async function start() {
   };
 
   function draw(next) {
-    if (next.program !== index.program) return location.reload(); // another program is shown from now on
+    if (next.program !== index.program) return reload(); // another program is shown from now on
     picture = next;
+    if (next.mayWrite && writer.on) { turnWriting(false); tell(next.mayWrite, true); }
     by('state').textContent = kStates[next.state];
     by('status').dataset.state = next.state;
     by('pill').title = next.fault;
     by('notice').hidden = !next.notice;
     if (by('notice').textContent !== next.notice) by('notice').textContent = next.notice;
+    const stopped = next.ran ? `The operator has stopped the program. Rungs are as in scan ${next.ran}, the last one that ran; ` +
+      `values are those of scan ${next.scan}.` : '';
+    by('stopped').hidden = !stopped;
+    if (by('stopped').textContent !== stopped) by('stopped').textContent = stopped;
     by('scan').textContent = next.scan;
     by('time').textContent = timeText(next.us);
     by('go').textContent = next.follows ? 'Pause' : !index.live ? 'Play' : index.machine || next.scan < next.last ? 'To now' : 'Run';
@@ -156,7 +193,7 @@ async function start() {
     const slider = by('slider');
     slider.min = next.first;
     slider.max = next.last;
-    if (seeking === null && document.activeElement !== slider || follows()) slider.value = next.scan;
+    if (seeking === null && !dragging) slider.value = next.scan;
     slider.setAttribute('aria-valuetext', `scan ${next.scan}, ${timeText(next.us)}`);
     by('forced').hidden = !next.forces.length;
     by('forced').textContent = `${next.forces.length} forced`;
@@ -199,6 +236,11 @@ async function start() {
   const pictures = new Pictures(draw, lost => {
     by('lost').hidden = !lost;
     document.body.classList.toggle('is-lost', lost);
+    if (!lost && unreached !== null) {
+      const scan = unreached;
+      unreached = null;
+      seek(scan);
+    }
     if (lost) { by('status').dataset.state = 'lost'; by('state').textContent = kStates.lost; by('lost-scan').textContent = picture?.scan ?? '–'; }
   });
 
@@ -207,6 +249,8 @@ async function start() {
   by('back').onclick = () => step(-1);
   by('step').onclick = () => step(1);
   by('slider').oninput = () => seek(Number(by('slider').value));
+  by('slider').onpointerdown = () => { dragging = true; };
+  by('slider').onpointerup = by('slider').onpointercancel = () => { dragging = false; };
   by('messages').onclick = () => showTab('log');
   by('forced').onclick = () => dialog('Forced', [list(picture.forces.map(cell => `${cell.name} = ${cell.value}`))],
     writer.on ? [['Release all', () => writer.send({do: 'unforce', name: ''})], ['Close']] : [['Close']]);
@@ -221,19 +265,19 @@ async function start() {
     event.stopPropagation();
   };
 
+  function turnWriting(on) {
+    writer.on = on;
+    by('writing').setAttribute('aria-pressed', String(on));
+    by('writing').textContent = on ? 'Writing on' : 'Writing off';
+    document.body.classList.toggle('is-writing', on);
+    if (picture) draw(picture);
+  }
   by('writing').onclick = () => {
-    const turn = on => {
-      writer.on = on;
-      by('writing').setAttribute('aria-pressed', String(on));
-      by('writing').textContent = on ? 'Writing on' : 'Writing off';
-      document.body.classList.toggle('is-writing', on);
-      if (picture) draw(picture);
-    };
-    if (writer.on) return turn(false);
+    if (writer.on) return turnWriting(false);
     if (picture?.mayWrite) return tell(picture.mayWrite, true);
     dialog('Switch writing on?', [make('p', '', 'Then this page can set and force values of the running program. ' +
       'Each of them acts at once, is confirmed, and appears in the history.')],
-    [['Switch on', () => turn(true)], ['Cancel']]);
+    [['Switch on', () => turnWriting(true)], ['Cancel']]);
   };
 
   const closeSide = () => { document.body.classList.remove('side-open'); by('menu').setAttribute('aria-expanded', 'false'); };
@@ -242,9 +286,23 @@ async function start() {
     by('menu').setAttribute('aria-expanded', String(open));
     if (open) by('tree').querySelector('[tabindex="0"]')?.focus();
   };
-  const more = open => { by('menu-more').hidden = !open; by('more').setAttribute('aria-expanded', String(open)); };
+  const items = () => [...by('menu-more').children].filter(item => !item.hidden);
+  const more = open => {
+    by('menu-more').hidden = !open;
+    by('more').setAttribute('aria-expanded', String(open));
+    if (open) items()[0].focus();
+  };
   by('more').onclick = event => { event.stopPropagation(); more(by('menu-more').hidden); };
   document.addEventListener('click', () => more(false));
+  by('menu-more').onkeydown = event => {
+    const all = items(), at = all.indexOf(document.activeElement);
+    const next = {ArrowDown: at + 1, ArrowUp: at - 1, Home: 0, End: all.length - 1}[event.key];
+    if (event.key === 'Escape') { more(false); by('more').focus(); }
+    else if (event.key === 'Tab') more(false);
+    else if (next !== undefined) all[(next + all.length) % all.length].focus();
+    if (next !== undefined || event.key === 'Escape') event.preventDefault();
+    event.stopPropagation();
+  };
   by('theme').onclick = () => setTheme(isDark() ? 'light' : 'dark');
   by('keys').onclick = keysDialog;
   by('mark').hidden = by('reload').hidden = !index.machine;
@@ -259,21 +317,33 @@ async function start() {
     text.setAttribute('aria-label', 'Text of the mark');
     text.maxLength = 400;
     dialog('Mark this moment', [make('p', '', 'The text appears on the time line, and the files of the recording are kept.'), text],
-      [['Mark', () => writer.send({do: 'mark', name: text.value.trim()})], ['Cancel']]);
+      [['Mark', () => {
+        if (!text.value.trim()) return 'A mark needs a text.';
+        writer.send({do: 'mark', name: text.value.trim()});
+      }], ['Cancel']]);
   };
   by('other').onclick = async () => {
     try {
       const {link} = await post('link', {});
       const text = make('p', 'link', link);
       dialog('Link for another browser', [make('p', '', 'It opens this page once, in one browser.'), text],
-        [['Copy', () => navigator.clipboard?.writeText(link)], ['Close']]);
+        [['Copy', () => void navigator.clipboard?.writeText(link)], ['Close']]);
     } catch (error) { tell(error.message, true); }
   };
 
   document.addEventListener('keydown', event => {
     if (event.ctrlKey || event.metaKey || event.altKey || by('dialog').open) return;
     const typing = event.target.matches('input:not([type=range]), select, textarea');
-    if (event.key === 'Escape') { if (!typing) { detail.close(); closeSide(); more(false); follow(); } return; }
+    if (event.key === 'Escape') {
+      if (typing && !event.target.closest('#detail')) return;
+      const fromSide = by('side').contains(event.target);
+      detail.close();
+      closeSide();
+      more(false);
+      follow();
+      if (fromSide) by('menu').focus();
+      return;
+    }
     if (typing) return;
     const inside = event.target.closest('article, #ladder, body') && !event.target.closest('#tree, #tabs, #io, #watch, #log');
     const acts = {

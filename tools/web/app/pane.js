@@ -1,4 +1,5 @@
 // The pane of rungs: rows at known heights, of which only those near the visible part exist.
+import {make} from './elements.js';
 import {get} from './link.js';
 
 const kBeyond = 600;  // pixels drawn above and below the visible part
@@ -111,9 +112,8 @@ export class Pane {
   put(row) {
     if (this.shown.has(row)) return;
     const kind = this.index.kinds[row];
-    const element = document.createElement(kind === 'r' ? 'article' : 'div');
+    const element = make(kind === 'r' ? 'article' : 'div', 'row is-' + kKinds[kind]);
     const [html, name] = this.cache.get(row);
-    element.className = 'row is-' + kKinds[kind];
     element.style.top = this.tops[row] + 'px';
     element.style.height = this.index.heights[row] + 'px';
     element.dataset.row = row;
@@ -155,23 +155,23 @@ export class Pane {
     delete element.dataset.heat;
     if (!share) return;
     element.dataset.heat = share.step;
-    const text = document.createElement('em');
-    text.className = 'share';
-    text.textContent = share.text;
-    element.querySelector('.cap').append(text);
+    element.querySelector('.cap').append(make('em', 'share', share.text));
   }
 
-  // The elements that decided, by row, as *why* has found them.
+  // What decided, by row, as *why* has found it.
   setCauses(causes) {
     this.causes = causes;
     for (const [row, element] of this.shown) this.markCauses(row, element);
   }
 
   markCauses(row, element) {
-    const names = this.causes.get(row);
-    element.classList.toggle('reason', names !== undefined);
+    const causes = this.causes.get(row);
+    element.classList.toggle('reason', causes !== undefined);
+    const ids = new Set(causes?.flatMap(([, , ids]) => ids).map(String)), names = new Set(causes?.map(([name]) => name));
     for (const one of element.querySelectorAll('.k'))
-      one.classList.toggle('cause', names !== undefined && names.includes(one.dataset.name));
+      one.classList.toggle('cause', names.has(one.dataset.name) || ids.has(one.dataset.id));
+    for (const one of element.querySelectorAll('.x ~ g a')) // operands of boxes are names alone
+      one.classList.toggle('cause', ids.has(one.getAttribute('href').slice(2)));
   }
 
   // The power in a rung. Every element says in data-on whether it is on; wires, whether they have power.
@@ -246,7 +246,8 @@ export class Pane {
     element.setAttribute('aria-label', `${element.rungName}. ${words.join('; ')}`);
   }
 
-  go(row, focus = true) {
+  // `place`: the element of the name with this id is marked, and scrolled to; {id, writes: a coil rather than a contact}.
+  go(row, {focus = true, place} = {}) {
     if (row === undefined) return;
     const top = this.tops[row], height = this.index.heights[row];
     const inside = top >= this.pane.scrollTop && top + height <= this.pane.scrollTop + this.pane.clientHeight;
@@ -260,11 +261,22 @@ export class Pane {
       element.classList.add('now');
       element.tabIndex = 0;
       if (focus) { element.focus({preventScroll: true}); this.describe(element); }
+      if (place) this.goElement(element, place);
     };
     there();
   }
 
-  goRung(number) { this.go(this.rungRow.get(number)); }
+  goRung(number, place) { this.go(this.rungRow.get(number), {place}); }
+
+  // Once what opens beside the rungs has taken its room.
+  goElement(element, {id, writes}) {
+    const all = [...element.querySelectorAll(`.k[data-id="${id}"]`)];
+    const one = all.find(each => each.classList.contains('o') === writes) ?? all[0] ?? element.querySelector(`svg a[href="#n${id}"]`);
+    this.mark(one);
+    requestAnimationFrame(() => one?.scrollIntoView({block: 'nearest', inline: 'nearest'}));
+  }
+
+  focus() { this.shown.get(this.focusRow)?.focus({preventScroll: true}); }
 
   // The next or previous rung from the focused one.
   move(step) {
@@ -281,13 +293,17 @@ export class Pane {
     const at = all.findIndex(one => one.classList.contains('at'));
     const next = all[(at < 0 && step < 0 ? all.length - 1 : at + step + all.length) % all.length];
     this.select(next);
+    next?.scrollIntoView({block: 'nearest', inline: 'nearest'});
+  }
+
+  mark(one) {
+    for (const old of this.space.querySelectorAll('.at')) old.classList.remove('at');
+    one?.classList.add('at');
   }
 
   select(one) {
-    for (const old of this.space.querySelectorAll('.at')) old.classList.remove('at');
-    if (!one) return;
-    one.classList.add('at');
-    this.chosen(one);
+    this.mark(one);
+    if (one) this.chosen(one);
   }
 
   click(event) {

@@ -1,31 +1,8 @@
 // Lists of names: those that are watched, inputs and outputs; and the name that is selected.
+import {button, iconButton, link, make, select, tableOf} from './elements.js';
 import {get, post} from './link.js';
 
-export function make(tag, name, text) {
-  const element = document.createElement(tag);
-  if (name) element.className = name;
-  if (text !== undefined) element.textContent = text;
-  return element;
-}
-
-// A link that does something in the page.
-export function link(text, href, act, title) {
-  const one = make('a', '', text);
-  one.href = href;
-  if (title) one.title = title;
-  one.onclick = event => { event.preventDefault(); act(); };
-  return one;
-}
-
-export function button(text, act, title) {
-  const element = make('button', '', text);
-  element.type = 'button';
-  if (title) element.title = title;
-  element.onclick = act;
-  return element;
-}
-
-// Rungs as links that lead to them.
+// Rungs as links that lead to them; go(rung).
 export function rungLinks(rungs, go, most = 40) {
   const span = make('span', 'rungs');
   rungs.slice(0, most).forEach((rung, i) => span.append(i ? ', ' : '', link(rung, '#r' + rung, () => go(rung))));
@@ -33,10 +10,11 @@ export function rungLinks(rungs, go, most = 40) {
   return span;
 }
 
-// Who writes the name, and who reads it.
+// Who writes the name, and who reads it; go(rung, {id, writes}) leads to the name in it.
 function usesOf(known, go, most) {
-  const of = (rungs, machine) => rungs.length ? rungLinks(rungs, go, most) : make('span', 'soft', machine ? 'machine' : 'no rung');
-  return {writes: of(known.writes, known.kind === 'i'), reads: of(known.reads, known.kind === 'o')};
+  const of = (rungs, writes, machine) => rungs.length ? rungLinks(rungs, rung => go(rung, {id: known.id, writes}), most)
+    : make('span', 'soft', machine ? 'machine' : 'no rung');
+  return {writes: of(known.writes, true, known.kind === 'i'), reads: of(known.reads, false, known.kind === 'o')};
 }
 
 // Orders that write. They are sent only while writing is switched on.
@@ -73,9 +51,13 @@ export function writeControls(name, writer, current) {
   return box;
 }
 
+// What decided in a step: [name, value, rows of the name, whether it decided alone].
+const causeText = ([name, value, , alone]) => name + (value ? ` = ${value}` : '') + (alone ? ' (alone)' : '');
+
 // The name that is selected: what it is, its value, where it is used, and why.
 export class Detail {
-  // `act`: go(rung), goRow(row), seek(scan), watch(name), causes(map of rows to the names that decided in them).
+  // `act`: go(rung, place), goRow(row), seek(scan), watch(name), causes(map of rows to what decided in them),
+  // back(): the focus goes to the rungs.
   constructor(box, names, writer, act) {
     Object.assign(this, {box, names, writer, act, name: ''});
   }
@@ -93,11 +75,8 @@ export class Detail {
 
   fill(label, known) {
     const title = make('h2', '', known ? known.name : label);
-    const close = button('×', () => this.close(), 'Close ( Esc )');
-    close.className = 'icon close';
-    close.setAttribute('aria-label', 'Close');
     const head = make('div', 'head');
-    head.append(title, close);
+    head.append(title, iconButton('×', () => this.close(), 'Close', 'close'));
     this.box.replaceChildren(head);
     if (!known) return;
     if (known.address) this.box.append(make('p', 'addr', known.address));
@@ -122,7 +101,9 @@ export class Detail {
       this.box.append(actions);
       this.controls = make('div');
       this.box.append(this.controls);
-      this.reason = make('pre', 'why');
+      this.reason = make('div', 'why');
+      this.reason.setAttribute('role', 'region');
+      this.reason.setAttribute('aria-label', 'Why');
       this.reason.hidden = true;
       this.box.append(this.reason);
       this.offered = null;
@@ -136,28 +117,37 @@ export class Detail {
       const answer = await get('why?name=' + encodeURIComponent(this.name));
       this.reason.replaceChildren();
       this.act.causes(new Map(answer.steps.filter(step => step[3] !== null).map(step => [step[3], step[4]])));
-      if (answer.steps.length) return this.fillSteps(answer.steps);
-      // Rungs in the text lead to them.
-      for (const part of answer.why.split(/(rung \d+)/)) {
-        const rung = /^rung (\d+)$/.exec(part);
-        if (rung) this.reason.append(rungLinks([Number(rung[1])], this.act.go)); else this.reason.append(part);
-        if (rung) this.reason.lastChild.prepend('rung ');
-      }
+      if (answer.steps.length) return this.fillSteps(answer);
+      this.fillText(answer.why);
     } catch (error) {
       this.reason.textContent = error.message;
     }
   }
 
+  // Rungs in the text lead to them.
+  fillText(why) {
+    const text = make('pre');
+    for (const part of why.split(/(rung \d+)/)) {
+      const rung = /^rung (\d+)$/.exec(part);
+      if (rung) text.append('rung ', rungLinks([Number(rung[1])], this.act.go)); else text.append(part);
+    }
+    this.reason.append(text);
+  }
+
   // Each step with its scan, its rung, and what decided in it; that is marked in the drawing, too.
-  fillSteps(steps) {
+  fillSteps({steps, different, skipped}) {
+    const chain = make('div');
+    this.reason.append(chain);
     for (const [depth, text, scan, row, causes] of steps) {
       const line = make('div', 'step');
       line.style.marginLeft = Math.min(depth, 6) * 10 + 'px';
       line.append(row === null ? text : link(text, '#row' + row, () => this.act.goRow(row), 'Show the rung'), ' since ',
         link(`scan ${scan}`, '#scan' + scan, () => this.act.seek(scan), 'Go back to this scan'));
-      if (causes.length) line.append(make('div', 'soft', 'decided by ' + causes.join(', ')));
-      this.reason.append(line);
+      if (causes.length) line.append(make('div', 'soft', 'decided by ' + causes.map(causeText).join(', ')));
+      chain.append(line);
     }
+    for (const text of skipped) this.reason.append(make('div', 'soft', text));
+    if (different.length) this.reason.append(make('div', 'different', 'It would be different with ' + different.join(' and ')));
   }
 
   draw(picture) {
@@ -174,28 +164,20 @@ export class Detail {
   }
 
   close() {
+    const hadFocus = this.box.contains(document.activeElement);
     this.box.hidden = true;
     this.name = '';
     this.act.causes(new Map());
+    if (hadFocus) this.act.back();
   }
 }
 
 // Names whose values are shown in a table: the watch list, and inputs and outputs.
 class NameTable {
-  constructor(box, heads) {
-    this.box = box;
+  constructor(label, heads) {
     this.cells = new Map();
-    this.table = make('table');
-    const head = make('tr');
-    for (const text of heads) {
-      const cell = make('th', '', text);
-      cell.scope = 'col';
-      head.append(cell);
-    }
-    const top = make('thead');
-    top.append(head);
-    this.rows = make('tbody');
-    this.table.append(top, this.rows);
+    Object.assign(this, tableOf(heads));
+    this.table.setAttribute('aria-label', label);
   }
   draw(picture) {
     const forced = new Set(picture.forces.flatMap(cell => cell.ids));
@@ -219,10 +201,10 @@ function shapesOf(known, tag) {
 }
 
 export class Watch {
-  constructor(box, names, writer, go, key) {
-    Object.assign(this, {box, names, writer, go, key});
+  constructor(box, names, writer, choose, key) {
+    Object.assign(this, {box, names, writer, choose, key});
     try { this.list = JSON.parse(localStorage.getItem(key) ?? '[]'); } catch { this.list = []; }
-    this.table = new NameTable(box, ['Name', 'Address', 'Value', 'Comment', '']);
+    this.table = new NameTable('Watched names', [['', 'Name'], ['', 'Address'], ['', 'Value'], ['about', 'Comment'], ['act', '']]);
     const form = make('form', 'add');
     const input = make('input');
     input.placeholder = 'Name or address';
@@ -259,12 +241,10 @@ export class Watch {
       const known = this.names.byName.get(name);
       const row = make('tr'), head = make('th', '', name), value = make('td', 'value'), last = make('td', 'act');
       head.scope = 'row';
-      const remove = button('×', () => this.remove(name), `Remove ${name}`);
-      remove.className = 'icon close';
-      remove.setAttribute('aria-label', `Remove ${name}`);
-      last.append(remove);
+      last.append(iconButton('×', () => this.remove(name), `Remove ${name}`, 'close'));
       if (this.writing) last.prepend(writeControls(name, this.writer));
-      row.append(head, make('td', 'addr', known?.address ?? ''), value, make('td', '', known?.comment ?? ''), last);
+      if (known) head.replaceChildren(link(name, '#n' + known.id, () => this.choose({dataset: {id: known.id, name}})));
+      row.append(head, make('td', 'addr', known?.address ?? ''), value, make('td', 'about', known?.comment ?? ''), last);
       this.table.cells.set(name, [value, known?.id]);
       return row;
     }));
@@ -279,24 +259,25 @@ export class Watch {
 
 const kIoRow = 31;  // height of a row in pixels, as in app.css
 
+// Columns of the inputs and outputs: class, head, and what a row is sorted by; addresses and names by the numbers in them.
+const kColumns = [['kind', '', one => one.kind], ['address', 'Address', one => one.address], ['name', 'Name', one => one.name],
+  ['now', 'Value'], ['drawn', 'Drawn as', one => one.shapes.join()], ['uses', 'Written in', one => one.writes[0] ?? 0],
+  ['uses', 'Read in', one => one.reads[0] ?? 0], ['about', 'Comment', one => one.comment]];
+const inOrder = new Intl.Collator(undefined, {numeric: true}).compare;
+
 // Inputs and outputs; only rows that are seen are followed.
 export class Terminals {
   constructor(box, names, go, choose) {
     Object.assign(this, {box, names, go, choose});
-    this.table = new NameTable(box, ['', 'Address', 'Name', 'Value', 'Comment', 'Drawn as', 'Written in', 'Read in']);
+    this.sorted = {column: -1, back: false};
+    this.table = new NameTable('Inputs and outputs', kColumns.map(([name, text, by], i) => [name, by ? this.sortButton(text, i) : text]));
     const bar = make('div', 'add');
     this.filter = make('input');
     this.filter.type = 'search';
     this.filter.placeholder = 'Filter';
     this.filter.setAttribute('aria-label', 'Filter inputs and outputs');
     this.filter.oninput = () => this.fill();
-    this.kind = make('select');
-    this.kind.setAttribute('aria-label', 'Which');
-    for (const [value, text] of [['io', 'Inputs and outputs'], ['i', 'Inputs'], ['o', 'Outputs']]) {
-      const option = make('option', '', text);
-      option.value = value;
-      this.kind.append(option);
-    }
+    this.kind = select('Which', [['io', 'Inputs and outputs'], ['i', 'Inputs'], ['o', 'Outputs']], 'io');
     this.kind.onchange = () => this.fill();
     this.count = make('span', 'soft');
     bar.append(this.filter, this.kind, this.count);
@@ -304,25 +285,50 @@ export class Terminals {
     box.addEventListener('scroll', () => this.onchange?.(), {passive: true});
   }
 
+  sortButton(text, column) {
+    const one = button(text || '↕', () => this.sort(column), `Sort by ${text ? text.toLowerCase() : 'input or output'}`);
+    one.setAttribute('aria-label', one.title);
+    return one;
+  }
+
+  // The same column once more: backwards.
+  sort(column) {
+    this.sorted = {column, back: this.sorted.column === column && !this.sorted.back};
+    this.table.heads.forEach((head, i) => {
+      if (i === column) head.setAttribute('aria-sort', this.sorted.back ? 'descending' : 'ascending'); else head.removeAttribute('aria-sort');
+    });
+    this.fill();
+  }
+
+  inTheirOrder(list) {
+    const by = kColumns[this.sorted.column]?.[2];
+    if (!by) return list;
+    list.sort((a, b) => inOrder(by(a), by(b)));
+    return this.sorted.back ? list.reverse() : list;
+  }
+
   async fill() {
     await this.names.load();
     const key = this.filter.value.trim().toLowerCase();
-    this.list = this.names.all.filter(one => one.kind && this.kind.value.includes(one.kind) && one.key.includes(key));
+    this.list = this.inTheirOrder(this.names.all.filter(one => one.kind && this.kind.value.includes(one.kind) && one.key.includes(key)));
     this.count.textContent = this.list.length === 1 ? '1 name' : `${this.list.length} names`;
     this.table.cells.clear();
-    this.table.rows.replaceChildren(...this.list.map(one => {
-      const row = make('tr'), name = make('th'), value = make('td', 'value'), uses = usesOf(one, this.go, 6);
-      name.scope = 'row';
-      name.append(link(one.name, '#n' + one.id, () => this.choose({dataset: {id: one.id, name: one.name}})));
-      const writes = make('td'), reads = make('td');
-      writes.append(uses.writes);
-      reads.append(uses.reads);
-      row.append(make('td', 'soft', one.kind === 'i' ? 'in' : 'out'), make('td', 'addr', one.address), name, value,
-        make('td', '', one.comment), shapesOf(one, 'td'), writes, reads);
-      this.table.cells.set(one.name, [value, one.id]);
-      return row;
-    }));
+    this.table.rows.replaceChildren(...this.list.map(one => this.row(one)));
     this.onchange?.();
+  }
+
+  row(one) {
+    const row = make('tr'), name = make('th'), value = make('td', 'value'), uses = usesOf(one, this.go, 6);
+    name.scope = 'row';
+    name.append(link(one.name, '#n' + one.id, () => this.choose({dataset: {id: one.id, name: one.name}}), one.name));
+    const writes = make('td'), reads = make('td'), about = make('td', 'about', one.comment);
+    about.title = one.comment;
+    writes.append(uses.writes);
+    reads.append(uses.reads);
+    row.append(make('td', 'soft', one.kind === 'i' ? 'in' : 'out'), make('td', 'addr', one.address), name, value, shapesOf(one, 'td'),
+      writes, reads, about);
+    this.table.cells.set(one.name, [value, one.id]);
+    return row;
   }
 
   follows() {

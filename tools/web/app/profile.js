@@ -1,6 +1,7 @@
 // What share of the work each rung is, as colours beside the rungs.
 import {get} from './link.js';
-import {button, make, rungLinks} from './panels.js';
+import {button, make} from './elements.js';
+import {rungLinks} from './panels.js';
 
 const kScans = 200;
 const kListed = 8;

@@ -1,20 +1,16 @@
 // The watched names over some scans, each as a line; a click goes to its scan. Either the last scans, or those around a
 // scan in which a condition began to hold.
+import {button, iconButton, link, make, select} from './elements.js';
 import {get, post} from './link.js';
-import {button, link, make} from './panels.js';
 
 const kHeight = 34;
 
-function select(label, choices, chosen) {
-  const box = make('select');
-  box.setAttribute('aria-label', label);
-  for (const [value, text] of choices) {
-    const option = make('option', '', text);
-    option.value = value;
-    option.selected = value === chosen;
-    box.append(option);
-  }
-  return box;
+// The scans below the lines.
+function axis(first, count) {
+  const row = make('div', 'line axis'), scans = make('span', 'scans soft num');
+  for (const scan of new Set([first, first + Math.floor(count / 2), first + count - 1])) scans.append(make('span', '', scan));
+  row.append(make('span', 'soft', 'scan'), scans);
+  return row;
 }
 
 export class Trace {
@@ -64,9 +60,7 @@ export class Trace {
     if (this.at < 0) return this.status.append(`It began to hold ${this.hits.length === 1 ? 'once' : this.hits.length + ' times'}; the trace follows.`);
     this.status.append(shown, link(this.hits[this.at], '#scan' + this.hits[this.at], () => this.seek(this.hits[this.at]), 'Go to this scan'), ' ');
     for (const [text, step, label] of [['‹', -1, 'The time before'], ['›', 1, 'The next time']]) {
-      const one = button(text, () => { this.at += step; this.load(this.hits[this.at]); }, label);
-      one.className = 'icon';
-      one.setAttribute('aria-label', label);
+      const one = iconButton(text, () => { this.at += step; this.load(this.hits[this.at]); }, label);
       one.disabled = this.hits[this.at + step] === undefined;
       this.status.append(one);
     }
@@ -101,13 +95,16 @@ export class Trace {
     this.loading = true;
     try {
       const trace = await get('trace?' + new URLSearchParams({names: names.join('\n'), scans: this.count(), last: hit ? hit + this.after() : 0}));
-      this.lines.replaceChildren(...names.map((name, i) => this.line(name, trace.values[i], trace.first, hit)));
+      const count = Math.max(...trace.values.map(values => values.length));
+      this.lines.replaceChildren(...names.map((name, i) => this.line(name, trace.values[i], trace.first, count, hit)),
+        axis(trace.first, count));
       this.tellHits();
     } catch (error) { this.tell(error.message, true); }
     this.loading = false;
   }
 
-  line(name, texts, first, hit) {
+  // All lines have the width of `count` scans, so that what is above each other was at the same time.
+  line(name, texts, first, count, hit) {
     const row = make('div', 'line'), svg = document.createElementNS('http://www.w3.org/2000/svg', 'svg');
     const values = texts.map(text => Number.parseFloat(text) || 0);
     const bits = values.every(value => value === 0 || value === 1);
@@ -115,14 +112,14 @@ export class Trace {
     const y = value => kHeight - 4 - (value - (bits ? 0 : least)) / span * (kHeight - 8);
     let path = `M0 ${y(values[0])}`;
     values.forEach((value, i) => { if (i && value !== values[i - 1]) path += `H${i}V${y(value)}`; });
-    svg.setAttribute('viewBox', `0 0 ${values.length} ${kHeight}`);
+    svg.setAttribute('viewBox', `0 0 ${count} ${kHeight}`);
     svg.setAttribute('preserveAspectRatio', 'none');
     svg.setAttribute('role', 'img');
     svg.setAttribute('aria-label', `${name} from scan ${first} to ${first + texts.length - 1}: ${texts[0]} to ${texts[texts.length - 1]}`);
     svg.innerHTML = (hit ? `<path class="hit" d="M${hit - first} 0v${kHeight}"/>` : '') + `<path class="wave" d="${path}H${values.length}"/>`;
     svg.onclick = event => {
       const box = svg.getBoundingClientRect();
-      this.seek(first + Math.min(values.length - 1, Math.floor((event.clientX - box.left) / box.width * values.length)));
+      this.seek(first + Math.min(values.length - 1, Math.floor((event.clientX - box.left) / box.width * count)));
     };
     // To the scan in which it changed last.
     const change = values.findLastIndex((value, i) => i && value !== values[i - 1]);

@@ -1,16 +1,17 @@
 // Levels, modules and sections at the side, as a tree for the keyboard.
+import {make} from './elements.js';
+
 export class Tree {
   constructor(list, index, go) {
     this.list = list;
     this.items = [];
     for (const [level, row, text, title, first, last] of index.tree) {
-      const item = document.createElement('li');
+      const item = make('li', 'level' + Math.min(level, 3));
       item.setAttribute('role', 'treeitem');
       item.setAttribute('aria-level', level + 1);
-      item.className = 'level' + Math.min(level, 3);
       item.tabIndex = -1;
-      item.append(span('name', text), span('about', title));
-      if (first) item.append(span('rungs', first === last ? first : `${first}–${last}`));
+      item.append(make('span', 'name', text), make('span', 'about', title));
+      if (first) item.append(make('span', 'rungs', first === last ? first : `${first}–${last}`));
       item.onclick = () => { go(row); };
       item.row = row;
       this.items.push(item);
@@ -44,11 +45,4 @@ export class Tree {
     if (now.offsetParent) now.scrollIntoView({block: 'nearest'});
     return now.firstChild.textContent;
   }
-}
-
-function span(name, text) {
-  const element = document.createElement('span');
-  element.className = name;
-  element.textContent = text;
-  return element;
 }

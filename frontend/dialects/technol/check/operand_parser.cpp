@@ -166,7 +166,7 @@ bool OperandParser::waitOperands(std::span<Operand> operands) {
 
 bool OperandParser::checkWrite(const OperandInfo& info, Protection protection, std::string_view name,
                                SourceRange range) {
-  const bool writes = info.access == Access::Write || info.access == Access::ReadWrite;
+  const bool writes = isWritten(info.access);
   if (!writes || protection == Protection::None) return true;
   const bool error = protection == Protection::Error;
   diagnostics_.report(diag::WriteToReadonly, range).severity(error ? Severity::Error : Severity::Warning) << name;

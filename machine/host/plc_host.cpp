@@ -244,11 +244,25 @@ void PlcHost::reportSaving() {
                                                : "the retained memory is not written: " + unsaved_});
 }
 
+// Reports when a recording begins to fail, fails for another reason, or works again; looks once a second.
+void PlcHost::reportRecording() {
+  const int64_t now = clock_.nowNs();
+  constexpr int64_t kLookNs = 1'000'000'000;
+  if (recordingFolder_.empty() || (recordingLookedNs_ && now - *recordingLookedNs_ < kLookNs)) return;
+  recordingLookedNs_ = now;
+  auto info = sized<rung_recording_info>();
+  if (rung_instance_recording(plc_.handle(), &info) != RUNG_OK || recordingProblem_ == info.problem) return;
+  recordingProblem_ = info.problem;
+  reports_.push_back(
+      {.text = recordingProblem_.empty() ? "the recording is written again" : "the recording: " + recordingProblem_});
+}
+
 bool PlcHost::serve(std::vector<Report>& reports) {
   const runtime::Alone::In service(serves_);
   restart();
   if (state_.load(std::memory_order_acquire) == State::Stopped) reportFault();
   if (kept_) reportSaving();
+  reportRecording();
   std::ranges::move(reports_, std::back_inserter(reports));
   return !std::exchange(reports_, {}).empty();
 }

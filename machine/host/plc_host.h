@@ -180,6 +180,7 @@ private:
   void stop() noexcept;
   void reportFault();
   void reportSaving();
+  void reportRecording();
   void restart();
   bool beginStep(int64_t ns, bool reset) noexcept;
   StepResult run(int64_t ns, int32_t (*due)(rung_instance*, int64_t)) noexcept;
@@ -216,8 +217,10 @@ private:
   bool hasRun_ = false;     // a slice has run since power-on, so outputs are the program's
   bool sliceBegun_ = false; // by `stepFast`
   // Service thread:
-  bool reported_ = false; // the fault that stopped the program has been reported
-  std::string unsaved_;   // the reported reason why retained memory was not saved; "": none
+  bool reported_ = false;        // the fault that stopped the program has been reported
+  std::string unsaved_;          // the reported reason why retained memory was not saved; "": none
+  std::string recordingProblem_; // the same of the recording
+  std::optional<int64_t> recordingLookedNs_;
   std::vector<Report> reports_;
   uint32_t restarts_ = 0;
   std::string restartProblem_;

@@ -2,6 +2,7 @@
 #include "rtlib/record/recording_writer.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 #include <zlib.h>
 
@@ -11,6 +12,7 @@
 #include <csignal>
 #include <filesystem>
 #include <random>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -18,6 +20,7 @@ namespace rung::runtime {
 
 namespace {
 
+constexpr size_t kMostProgram = size_t{1} << 30;
 constexpr size_t kMostPending = 256 * 1024; // bytes of events of a block, after which it is written at once
 constexpr std::chrono::milliseconds kTurn{80}, kFollowed{33};
 constexpr int64_t kFollowUs = 2'000'000;
@@ -96,14 +99,49 @@ struct RecordingWriter::Deflate {
 RecordingWriter::RecordingWriter(PartStream& stream, RecordingMode mode, const RecordingOptions& options,
                                  const OpenFile& open)
     : stream_(stream), mode_(mode), options_(options), open_(open), run_(randomNumber()) {
-  std::error_code problem;
-  std::filesystem::create_directory(options_.folder, problem);
-  if (problem) throw std::runtime_error("cannot make the folder " + options_.folder + ": " + problem.message());
-  lock_ = lockDiskFile(options_.folder + "/lock");
-  if (!lock_.file.ok())
-    throw std::runtime_error(lock_.error.empty() ? "another process records into " + options_.folder : lock_.error);
+  if (const std::string problem = useFolder(); !problem.empty()) throw std::runtime_error(problem);
   deflate_ = std::make_unique<Deflate>();
   if (const std::vector<SegmentFile> old = segmentsIn(options_.folder); !old.empty()) number_ = old.back().number;
+}
+
+RecordingWriter::FolderId RecordingWriter::idOf(const std::string& folder) noexcept {
+  struct stat found{};
+  return stat(folder.c_str(), &found) == 0 ? FolderId{found.st_dev, found.st_ino} : FolderId{};
+}
+
+// Makes and locks it. "" or why that is impossible.
+std::string RecordingWriter::useFolder() {
+  std::error_code problem;
+  std::filesystem::create_directory(options_.folder, problem);
+  if (problem) return "cannot make the folder " + options_.folder + ": " + problem.message();
+  DiskLock lock = lockDiskFile(options_.folder + "/lock");
+  if (!lock.file.ok()) return lock.error.empty() ? "another process records into " + options_.folder : lock.error;
+  lock_ = std::move(lock);
+  folder_ = idOf(options_.folder);
+  return {};
+}
+
+// A folder that was moved or deleted has taken the files that are open with it: the recording continues in a new one,
+// with the next state.
+void RecordingWriter::lookForFolder() {
+  if (idOf(options_.folder) == folder_) return;
+  if (folder_ != FolderId{}) {
+    moved_ = "the folder " + options_.folder + " was moved or deleted while it was written";
+    failed(moved_);
+    folder_ = {};
+  }
+  if (const std::string problem = useFolder(); !problem.empty()) {
+    problem_ = moved_ + ", and there is no new one: " + problem;
+    return;
+  }
+  moved_ += "; the recording continues in a new one";
+  movedUs_ = wallUs();
+  problem_.clear();
+  for (const auto& [hash, file] : programs_) {
+    std::string bytes;
+    if (file.ok() && lseek(file.fd(), 0, SEEK_SET) == 0 && readAll(file.fd(), kMostProgram, bytes).empty())
+      writeProgram(hash, bytes);
+  }
 }
 
 RecordingWriter::~RecordingWriter() {
@@ -143,6 +181,7 @@ void RecordingWriter::look() {
 }
 
 void RecordingWriter::turn() {
+  lookForFolder();
   for (std::span<const uint8_t> record = stream_.ring().front(); !record.empty(); record = stream_.ring().front()) {
     take(record);
     stream_.ring().pop();
@@ -168,6 +207,10 @@ void RecordingWriter::take(std::span<const uint8_t> record) {
 // Each state begins a stream of its own, so that a reader can begin there.
 void RecordingWriter::beginState(uint64_t program) {
   if (!pending_.empty()) writeBlock(beginsState_ ? BlockKind::State : BlockKind::Events);
+  if (folder_ == FolderId{}) { // it is made again first
+    dropped_ = true;
+    return;
+  }
   const bool isFull = segmentBytes_ >= options_.segmentBytes || wallUs() - segmentUs_ >= options_.segmentUs;
   if (file_ == nullptr || program != program_ || isFull) dropped_ = !beginSegment(program);
   if (dropped_) return;
@@ -192,7 +235,7 @@ bool RecordingWriter::beginSegment(uint64_t program) {
   }
   file_ = std::move(made);
   program_ = program;
-  programs_.insert(program);
+  programs_.try_emplace(program);
   segmentBytes_ = sizeof head;
   segmentUs_ = head.wallUs;
   problem_.clear();
@@ -275,7 +318,8 @@ void RecordingWriter::makeRoom() {
 }
 
 void RecordingWriter::deletePrograms() {
-  std::set<uint64_t> used = programs_;
+  std::set<uint64_t> used;
+  for (const auto& [hash, file] : programs_) used.insert(hash);
   std::string problem;
   for (const SegmentFile& file : segmentsIn(options_.folder))
     if (const auto head = readSegmentHead(options_.folder + "/" + file.name, problem)) used.insert(head->program);
@@ -308,11 +352,15 @@ void RecordingWriter::follow() {
 
 void RecordingWriter::addProgram(uint64_t hash, std::span<const uint8_t> bytes) {
   const std::lock_guard lock(mutex_);
-  programs_.insert(hash);
+  writeProgram(hash, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
+void RecordingWriter::writeProgram(uint64_t hash, std::string_view bytes) {
   const std::string path = options_.folder + "/" + programName(hash);
   std::error_code none;
-  if (std::filesystem::exists(path, none)) return;
-  programProblem_ = replaceFile(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()}, {.mode = 0644});
+  if (!std::filesystem::exists(path, none)) programProblem_ = replaceFile(path, bytes, {.mode = 0644});
+  File& file = programs_[hash];
+  if (!file.ok()) file = File(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
 }
 
 RecordingState RecordingWriter::state() const {
@@ -322,6 +370,8 @@ RecordingState RecordingWriter::state() const {
                        .raw = raw_,
                        .losses = stream_.losses() + lostBlocks_,
                        .problem = problem_.empty() ? programProblem_ : problem_};
+  constexpr int64_t kShownUs = 10'000'000; // longer than a host looks away
+  if (state.problem.empty() && !moved_.empty() && wallUs() - movedUs_ < kShownUs) state.problem = moved_;
   std::string problem;
   const std::vector<SegmentFile> all = segmentsIn(options_.folder);
   for (const SegmentFile& file : all) state.bytes += file.bytes;

@@ -5,9 +5,9 @@
 #include <condition_variable>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
-#include <set>
 #include <string>
 #include <string_view>
 #include <thread>
@@ -35,7 +35,7 @@ struct RecordingState {
   uint64_t written = 0; // bytes since the start
   uint64_t raw = 0;     // the same before packing
   uint64_t losses = 0;  // gaps in the recording
-  std::string problem;  // why nothing is written now; "": all is well
+  std::string problem;  // why nothing is written now, or was a moment ago because the folder had gone; "": all is well
 };
 
 // The disk as a writer sees it; a test has one that is full.
@@ -74,6 +74,14 @@ public:
 
 private:
   struct Deflate;
+  struct FolderId {
+    uint64_t device = 0, number = 0; // 0: there is none
+    bool operator==(const FolderId&) const = default;
+  };
+  static FolderId idOf(const std::string& folder) noexcept;
+  std::string useFolder();
+  void lookForFolder();
+  void writeProgram(uint64_t hash, std::string_view bytes);
   void run();
   void turn();
   void take(std::span<const uint8_t> record);
@@ -90,10 +98,10 @@ private:
   const RecordingMode mode_;
   const RecordingOptions options_;
   const OpenFile open_;
-  DiskLock lock_;
   const uint64_t run_;
 
   mutable std::mutex mutex_; // of all below
+  DiskLock lock_;
   std::unique_ptr<Deflate> deflate_;
   std::unique_ptr<AppendedFile> file_; // null: none is written
   std::vector<uint8_t> pending_;       // events of the next block
@@ -107,7 +115,10 @@ private:
   bool dropped_ = false; // nothing is written until the next state
   uint32_t seenFaults_ = 0;
   std::string problem_, programProblem_;
-  std::set<uint64_t> programs_; // of this run
+  std::map<uint64_t, File> programs_; // of this run; a file stays readable when the folder is moved
+  FolderId folder_;                   // in which the lock is
+  std::string moved_;                 // what happened to the former folder, and when
+  int64_t movedUs_ = 0;
   std::vector<std::string> marks_;
   bool keeps_ = false;
   int64_t followUntilUs_ = 0;

@@ -102,7 +102,9 @@ void GrowingRecording::openFile(const runtime::SegmentFile& file) {
     recording_.problems.push_back(file.name + " was recorded in another way than the segments before it");
     return;
   }
-  if (!takeProgram(opened->head().program)) return;
+  if (!takeProgram(opened->head().program))
+    return missing(fmt::format("{} cannot be played without its program {}", opened->path(),
+                               runtime::programName(opened->head().program)));
   const uint64_t number = opened->head().number;
   if (last_ && last_->run == opened->head().run && last_->number + 1 < number)
     missing(last_->number + 2 == number
@@ -184,6 +186,9 @@ void GrowingRecording::endFile() {
     if (begins_) recording_.segments.emplace_back(); // it has no whole block
     missing(fmt::format("{} ends with {} bytes of a block that was cut off", file_->path(), file_->rest()));
   }
+  if (file_ && file_->ended() && file_->rest() != 0)
+    recording_.problems.push_back(
+        fmt::format("{} has {} bytes after its end, which no recorder wrote", file_->path(), file_->rest()));
   file_.reset();
 }
 

@@ -110,11 +110,23 @@ private:
   size_t position() const { return first_ + reader_.position(); }
   void add(Landmark::Kind kind, std::string text) { to_.landmarks.push_back({kind, to_.parts, std::move(text)}); }
 
+  // The program of the next state comes before it.
+  std::string startText() const {
+    if (!to_.program_) return "started";
+    if (next_ == to_.program_) return "started again, or another state of the same program loaded";
+    return "another program runs: " + runtime::programName(next_.value_or(0));
+  }
+
   // False: there is no such event, or it cannot be here.
   bool take(Event event, size_t at) {
     if (event == Event::Program || (event == Event::Surroundings && !group_)) group_ = at;
     switch (event) {
-    case Event::State: return state(at);
+    case Event::Program: {
+      EventReader hash = reader_;
+      next_ = hash.takeNumber();
+      break;
+    }
+    case Event::State: to_.program_ = next_.value_or(0); return state(at);
     case Event::Forces: return forces();
     case Event::Repeat: return repeat();
     case Event::Part:
@@ -125,7 +137,7 @@ private:
     case Event::Fault: add(Landmark::Kind::Fault, "the program stopped with a fault"); break;
     case Event::Anew:
       to_.whole_ = false;
-      add(Landmark::Kind::Start, "started, or another state loaded");
+      add(Landmark::Kind::Start, startText());
       break;
     case Event::Mark: {
       const std::span<const uint8_t> text = reader_.takeBytes(reader_.takeNumber());
@@ -176,7 +188,8 @@ private:
   size_t first_;
   EventReader reader_;
   const Contents::See& see_;
-  std::optional<size_t> group_; // where the events before a state begin
+  std::optional<uint64_t> next_; // the program of the next state
+  std::optional<size_t> group_;  // where the events before a state begin
 };
 
 std::vector<OutsideWrite> outsideWrites(std::span<const uint8_t> before, std::span<const uint8_t> events,

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -103,10 +104,11 @@ private:
   friend class Skimmer;
   void drop(const Recording& recording);
 
-  size_t read_ = 0;          // of the events of the last segment
-  runtime::Places places_;   // that the next events refer to
-  bool whole_ = false;       // a state has come before
-  bool unreadable_ = false;  // up to the next segment that does not continue
-  bool damageNoted_ = false; // of the last segment
+  size_t read_ = 0;                 // of the events of the last segment
+  runtime::Places places_;          // that the next events refer to
+  bool whole_ = false;              // a state has come before
+  std::optional<uint64_t> program_; // of the last one; nothing: there was none
+  bool unreadable_ = false;         // up to the next segment that does not continue
+  bool damageNoted_ = false;        // of the last segment
 };
 } // namespace rung::replay

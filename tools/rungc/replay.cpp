@@ -74,6 +74,8 @@ std::optional<Programs> givenPrograms(const SourceOptions& source, int& status) 
 
 void printProblems(const replay::Recording& recording) {
   for (const std::string& problem : recording.problems) fmt::print(stderr, "rungc: {}\n", problem);
+  for (const replay::Segment& segment : recording.segments)
+    if (!segment.damage.empty()) fmt::print(stderr, "rungc: {}\n", segment.damage);
 }
 
 std::optional<replay::Recording> openRecording(const ReplayOptions& options, int& status) {
@@ -168,7 +170,8 @@ int runReplay(const ReplayOptions& options) {
   if (!recording) return status;
   Result<std::unique_ptr<replay::Past>> past = replay::Past::open(*recording, pastOptions(options, *recording));
   if (!past.ok()) return environmentError(fmt::format("{}: {}", options.file, past.error()));
-  return runPast(options, *past.value(), [] {});
+  status = runPast(options, *past.value(), [] {});
+  return status == kOk && !recording->problems.empty() ? int{kWrong} : status; // not all was there to be seen
 }
 
 } // namespace

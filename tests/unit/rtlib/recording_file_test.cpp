@@ -269,6 +269,28 @@ TEST_F(Files, AFullDiskMakesAGap) {
   EXPECT_EQ(textsOf(readAll(folder() + "/" + left[1].name)), "lost state four ");
 }
 
+// Whoever reads the former folder has it up to then; the new one can be played by itself.
+TEST_F(Files, AFolderThatIsMovedIsSaidAndMadeAgain) {
+  RecordingWriter writer(stream, RecordingMode::Control, options());
+  const std::string program = "the program";
+  writer.addProgram(kProgram, {reinterpret_cast<const uint8_t*>(program.data()), program.size()});
+  putState(stream);
+  putPart(stream, "before");
+  writer.look();
+  std::filesystem::rename(folder(), folder() + ".old");
+  putPart(stream, "lost");
+  writer.look();
+  EXPECT_THAT(writer.state().problem, HasSubstr("was moved or deleted while it was written; the recording continues"));
+  EXPECT_EQ(writer.state().losses, 1u);
+  putState(stream);
+  putPart(stream, "after");
+  writer.look();
+  EXPECT_THAT(readAll(path(2)).blocks, SizeIs(1));
+  std::ifstream copied(folder() + "/" + programName(kProgram));
+  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(copied), {}), program);
+  EXPECT_EQ(writer.state().file, path(2));
+}
+
 TEST_F(Files, OneProcessAtATime) {
   const RecordingWriter writer(stream, RecordingMode::Control, options());
   EXPECT_THROW(RecordingWriter(stream, RecordingMode::Control, options()), std::runtime_error);

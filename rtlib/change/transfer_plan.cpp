@@ -480,7 +480,7 @@ private:
         continue;
       }
       ++plan_.keptSlots_;
-      found.push_back({.from = before.offset, .to = slot.offset, .count = bytesOf(slot)});
+      found.push_back({.from = before.offset, .to = slot.offset, .count = slotBytes(slot)});
     }
     for (uint32_t o = 0; o < from_.slot_count; ++o)
       if (!isThere[o]) remove(from_.slots[o]);
@@ -495,7 +495,6 @@ private:
   }
 
   // Each rung as drawn counts once, by its first part.
-  static uint32_t bytesOf(const rung_slot& slot) { return std::max(1u, elementBits(slot.type) / 8); }
 
   void remove(const rung_slot& former) {
     report(ChangeKind::Removed, former);
@@ -507,7 +506,7 @@ private:
                                                [](const rung_slot& slot) { return std::string_view(slot.key); });
     if (held == slots.end() || key.substr(shared) != held->key) return;
     plan_.holders_.push_back(
-        {.slot = former.offset, .slotBytes = bytesOf(former), .held = held->offset, .heldBytes = bytesOf(*held)});
+        {.slot = former.offset, .slotBytes = slotBytes(former), .held = held->offset, .heldBytes = slotBytes(*held)});
   }
 
   // The cells of continuations are moved like slots and named cells; then their numbers are replaced.

@@ -50,6 +50,8 @@ std::optional<LogicalByte> byteAt(const rung_program& program, uint32_t offset) 
   return std::nullopt;
 }
 
+uint32_t slotBytes(const rung_slot& slot) { return std::max(1u, elementBits(slot.type) / 8); }
+
 std::string_view serviceName(const rung_program& program, uint32_t service) {
   return service < program.service_count ? std::string_view(program.services[service]) : std::string_view();
 }

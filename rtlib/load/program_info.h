@@ -37,6 +37,9 @@ struct LogicalByte {
 };
 std::optional<LogicalByte> byteAt(const rung_program& program, uint32_t offset);
 
+// Of the memory block.
+uint32_t slotBytes(const rung_slot& slot);
+
 std::string_view serviceName(const rung_program& program, uint32_t service); // "" when there is none
 std::string_view messageText(const rung_program& program, uint32_t number);  // "" when there is none
 

@@ -47,7 +47,7 @@ public:
   Names(const rung_program& program, const ir::Uses& uses)
       : program_(program), uses_(uses), control_(nc::makeControl(program.dialect)), owners_(program.memory_size) {
     for (uint32_t i = 0; i < program.slot_count; ++i)
-      for (uint32_t b = 0; b < bytesOf(program.slots[i].type); ++b) owners_[program.slots[i].offset + b].slot = i;
+      for (uint32_t b = 0; b < runtime::slotBytes(program.slots[i]); ++b) owners_[program.slots[i].offset + b].slot = i;
     for (uint32_t at = 0; at < program.memory_size; ++at)
       if (const auto byte = runtime::byteAt(program, at)) owners_[at] = {byte->space, byte->byte, RUNG_NONE};
   }
@@ -57,15 +57,6 @@ public:
     const auto key = std::tuple(bit.space, bit.byte, bit.bit);
     const auto known = named_.find(key);
     return known != named_.end() ? known->second : named_.emplace(key, complete(find(bit))).first->second;
-  }
-  static uint32_t bytesOf(uint32_t type) {
-    switch (type) {
-    case RUNG_TYPE_BIT:
-    case RUNG_TYPE_I8: return 1;
-    case RUNG_TYPE_I16: return 2;
-    case RUNG_TYPE_I32: return 4;
-    default: return 8;
-    }
   }
 
 private:
@@ -322,7 +313,7 @@ private:
   void putState(const runtime::Instance& instance, const rung_slot& slot, uint32_t turn, std::set<std::string>& done) {
     if (!done.insert(fmt::format("state {}", slot.key)).second) return;
     uint64_t value = 0;
-    std::memcpy(&value, instance.block().data() + slot.offset, Names::bytesOf(slot.type));
+    std::memcpy(&value, instance.block().data() + slot.offset, runtime::slotBytes(slot));
     rung::put(before_, "within {} state {} {}\n", turn, scenario::asWord(slot.key), value);
   }
   void put(const runtime::Instance& instance, const Ref& bit, uint32_t turn, std::set<std::string>& done) {

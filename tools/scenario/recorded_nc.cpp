@@ -36,26 +36,10 @@ bool takeNumbers(Words words, std::vector<int64_t>& into) {
   return true;
 }
 
-uint32_t bytesOf(uint32_t type) {
-  switch (type) {
-  case RUNG_TYPE_BIT:
-  case RUNG_TYPE_I8: return 1;
-  case RUNG_TYPE_I16: return 2;
-  case RUNG_TYPE_I32: return 4;
-  default: return 8;
-  }
-}
-
 const rung_slot* findSlot(const rung_program& program, const std::string& key) {
   const std::span slots(program.slots, program.slot_count);
   const auto found = std::ranges::find_if(slots, [&](const rung_slot& slot) { return slot.key == key; });
   return found == slots.end() ? nullptr : &*found;
-}
-
-std::optional<uint32_t> findTask(const rung_program& program, const std::string& name) {
-  for (uint32_t i = 0; i < program.task_count; ++i)
-    if (program.tasks[i].name == name) return i;
-  return std::nullopt;
 }
 
 core::ServiceReply replyOf(uint32_t ticket, uint32_t state, const std::vector<int64_t>& results) {
@@ -91,14 +75,14 @@ std::string RecordedNc::read(const rung_program& program, std::string_view actio
     if (slot == nullptr) return fmt::format("this program has no internal state '{}'", words[0]);
     act.what = Act::What::State;
     act.number = slot->offset;
-    act.bytes = bytesOf(slot->type);
+    act.bytes = runtime::slotBytes(*slot);
     return takeNumbers(words.subspan(1), act.values) ? "" : fmt::format("'{}' is not a whole number", words[1]);
   }
   if (action == "task" && count == 1) {
-    const auto task = findTask(program, words[0]);
-    if (!task) return fmt::format("this program has no task '{}'", words[0]);
+    const uint32_t task = runtime::findTask(program, words[0]);
+    if (task == RUNG_NONE) return fmt::format("this program has no task '{}'", words[0]);
     act.what = Act::What::Task;
-    act.number = *task;
+    act.number = task;
     return {};
   }
   if ((action == "request" && count >= 1) || (action == "halt" && count == 1)) {
